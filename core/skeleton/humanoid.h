@@ -96,7 +96,8 @@ constexpr LimbJoints JointsOf(Limb limb) {
   return {J::kRightUpperLeg, J::kRightLowerLeg, J::kRightFoot};
 }
 
-/// The eight limb segments, each a capsule: upper and lower of each limb, stored as 2 * limb + part.
+/// The eight limb segments, each a capsule: upper and lower of each limb, stored as 2 * limb +
+/// part.
 enum class LimbSegment : std::uint8_t {
   kLeftUpperArm,
   kLeftForearm,
