@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,14 @@ PosedMesh PoseMesh(const Character& character, std::span<const Mat4> node_global
 
 /// The mesh in the canonical pose: stage space, metres, soles on the ground.
 PosedMesh CanonicalMesh(const Character& character);
+
+/// One matrix for each palette entry: from bind space to world space.
+std::vector<Mat4> SkinMatrices(const Character& character, std::span<const Mat4> node_global);
+
+/// Linear blend skinning of one vertex, and of one point of the skin (IsOn); world space, metres.
+Vec3 SkinVertex(const MeshPart& part, std::span<const Mat4> skin_matrices, std::size_t vertex);
+Vec3 PosePoint(const Character& character, std::span<const Mat4> skin_matrices,
+               const MeshPoint& point);
 
 /// Where a point of the skin is on a posed mesh. The point must be on the character (IsOn).
 Vec3 Position(const Character& character, const PosedMesh& mesh, const MeshPoint& point);
