@@ -10,7 +10,8 @@ namespace ego::look {
 /// The colours of every view, sRGB in [0, 1]. They live here and nowhere else.
 constexpr glm::vec3 Srgb(unsigned hex) {
   return {static_cast<float>((hex >> 16) & 0xffu) / 255.0f,
-          static_cast<float>((hex >> 8) & 0xffu) / 255.0f, static_cast<float>(hex & 0xffu) / 255.0f};
+          static_cast<float>((hex >> 8) & 0xffu) / 255.0f,
+          static_cast<float>(hex & 0xffu) / 255.0f};
 }
 
 inline constexpr glm::vec3 kRoom = Srgb(0x14161A);
