@@ -25,10 +25,6 @@ struct MarkerModel {
   std::vector<BoundMarker> markers;
 };
 
-/// Degrees of freedom of a posture: root translation and rotation, ball joints, and hinges
-/// (elbow, knee) of one flexion and one axial rotation. Toes stay straight.
-inline constexpr std::size_t kPoseDof = 59;
-
 struct PoseSolverOptions {
   double sigma = 0.008;                  // expected marker error, one axis, metres
   double outlier_factor = 5.0;           // errors beyond this many sigmas lose their pull
@@ -54,12 +50,10 @@ class PoseSolver {
  public:
   static constexpr std::size_t kMinMarkers = 6;
 
-  /// What persists between frames, and the scratch memory. One per stream of frames.
+  /// What persists between frames. One per stream of frames.
   struct State {
     Pose pose;
     bool started = false;
-
-    std::vector<double> scratch;  // sized by the first Solve; no allocation after
   };
 
   PoseSolver(MarkerModel model, PoseSolverOptions options);
@@ -67,7 +61,8 @@ class PoseSolver {
   const MarkerModel& model() const { return model_; }
 
   /// Solves one frame from `state.pose` (from a guess when not started) and leaves the result
-  /// there, world space. Fewer than kMinMarkers seen: the pose is held. Never NaN.
+  /// there, world space. Fewer than kMinMarkers seen: the pose is held. Never NaN. Allocates only
+  /// where it has to start afresh.
   PoseSolverReport Solve(const MarkerFrame& frame, State& state) const;
 
   /// Solves with no regard to any earlier frame: from several guesses, the best is kept.

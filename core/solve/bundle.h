@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/markers/marker_take.h"
+#include "core/solve/body_parameters.h"
+#include "core/solve/posture.h"
+#include "core/solve/posture_cost.h"
+
+namespace ego {
+
+/// A marker whose place on the body is being estimated.
+struct FittedMarker {
+  std::size_t label = 0;
+  HumanoidJoint joint = HumanoidJoint::kHips;
+  Vec3 template_offset{0.0};  // from the joint, template size
+  double along = 0.0;         // AlongBone of it
+  double sigma = 0.02;        // spread of real placements, template size
+  Vec3 shift_ls{0.0};         // found so far: beyond the scaled template, metres
+};
+
+/// Unknowns of the global fit: lengths and marker places shared by all frames, one posture each.
+struct Bundle {
+  double scale = 1.0;
+  LengthValues lengths{};
+  std::vector<FittedMarker> markers;
+  std::vector<MarkerFrame> frames;
+  std::vector<Posture> postures;  // one per frame
+};
+
+struct BundleOptions {
+  MarkerLoss loss;
+  double symmetry_sigma = 0.002;
+  double offset_sigma_scale = 1.0;
+  int max_iterations = 10;
+};
+
+/// The model that the shared unknowns describe.
+MarkerModel ModelOf(const Bundle& bundle);
+
+/// Minimises over all unknowns at once: Levenberg-Marquardt, the postures eliminated frame by frame
+/// (Schur complement). Returns the final cost.
+double AdjustBundle(Bundle& bundle, const BundleOptions& options);
+
+/// Takes up in `scale` what the lengths have in common; the model stays the same. Afterwards the
+/// priors are centred on a body of the right size.
+void Rescale(Bundle& bundle);
+
+}  // namespace ego

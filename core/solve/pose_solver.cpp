@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "core/solve/pose_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/solve/cold_pose.h"
+#include "core/solve/dense.h"
+#include "core/solve/posture_cost.h"
+
+namespace ego {
+namespace {
+
+// A step is converged below these; smaller ones change no picture.
+constexpr double kRotationTolerance = 2e-4;
+constexpr double kTranslationTolerance = 5e-5;
+// Longest step of any angle: beyond it the linear model means nothing.
+constexpr double kMaxTurn = 0.6;
+
+struct Problem {
+  const MarkerModel& model;
+  const MarkerFrame& frame;
+  MarkerLoss loss;
+  Previous previous;
+};
+
+double Cost(const Problem& problem, const Posture& posture) {
+  return PriorCost(posture, problem.previous) + MarkerCost(problem.model, problem.frame,
+                                                           Placed(problem.model.skeleton, posture),
+                                                           problem.loss);
+}
+
+void LimitStep(std::array<double, kPoseDof>& step) {
+  double largest = 0.0;
+  for (std::size_t d = 3; d < kPoseDof; ++d) largest = std::max(largest, std::abs(step[d]));
+  if (largest <= kMaxTurn) return;
+  for (double& s : step) s *= kMaxTurn / largest;
+}
+
+bool IsSmall(const std::array<double, kPoseDof>& step) {
+  for (std::size_t d = 0; d < kPoseDof; ++d) {
+    if (std::abs(step[d]) > (d < 3 ? kTranslationTolerance : kRotationTolerance)) return false;
+  }
+  return true;
+}
+
+struct Descent {
+  double cost = 0.0;
+  int iterations = 0;
+};
+
+/// Levenberg-Marquardt from `posture`, which is left at the best place found.
+Descent Minimise(const Problem& problem, int max_iterations, Posture& posture) {
+  Descent descent;
+  NormalEquations equations;
+  std::array<double, kPoseDof * kPoseDof> factor;
+  std::array<double, kPoseDof> step;
+  double damping = 1e-4;
+  bool linear = false;
+  for (; descent.iterations < max_iterations; ++descent.iterations) {
+    if (!linear) {
+      equations.h.fill(0.0);
+      equations.g.fill(0.0);
+      const ModelPose pose = Placed(problem.model.skeleton, posture);
+      descent.cost = AddPriors(posture, problem.previous, equations) +
+                     AddMarkers(problem.model, problem.frame, pose, problem.loss, equations);
+      linear = true;
+    }
+    factor = equations.h;
+    for (std::size_t d = 0; d < kPoseDof; ++d) {
+      double& diagonal = factor[d * kPoseDof + d];
+      diagonal += damping * diagonal + 1e-6;
+      step[d] = -equations.g[d];
+    }
+    CholeskyInPlace(factor.data(), kPoseDof, kPoseDof);
+    SolveLower(factor.data(), kPoseDof, kPoseDof, step.data());
+    SolveLowerTransposed(factor.data(), kPoseDof, kPoseDof, step.data());
+    LimitStep(step);
+    const Posture candidate = Moved(posture, step);
+    const double cost = Cost(problem, candidate);
+    if (cost <= descent.cost) {  // false for NaN
+      const bool converged = IsSmall(step) || descent.cost - cost < 1e-7 * descent.cost;
+      posture = candidate;
+      descent.cost = cost;
+      damping = std::max(1e-7, 0.2 * damping);
+      linear = false;
+      if (converged) {
+        ++descent.iterations;
+        break;
+      }
+    } else {
+      if (IsSmall(step)) break;
+      damping *= 10.0;
+      if (damping > 1e6) break;
+    }
+  }
+  return descent;
+}
+
+std::size_t CountVisible(const MarkerModel& model, const MarkerFrame& frame) {
+  std::size_t count = 0;
+  for (const BoundMarker& marker : model.markers) count += frame.visible[marker.label] ? 1u : 0u;
+  return count;
+}
+
+double MeanResidual(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const BoundMarker& marker : model.markers) {
+    if (!frame.visible[marker.label]) continue;
+    sum +=
+        glm::distance(pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls,
+                      frame.position_ws[marker.label]);
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+constexpr int kColdIterations = 30;
+
+}  // namespace
+
+PoseSolver::PoseSolver(MarkerModel model, PoseSolverOptions options)
+    : model_(std::move(model)), options_(options) {}
+
+PoseSolverReport PoseSolver::Solve(const MarkerFrame& frame, State& state) const {
+  if (!state.started) return SolveCold(frame, state);
+  PoseSolverReport report;
+  report.visible = CountVisible(model_, frame);
+  if (report.visible < kMinMarkers) return report;
+
+  const Posture previous = PostureFromPose(state.pose);
+  Problem problem{model_, frame, {options_.sigma, options_.outlier_factor}, {}};
+  if (options_.step_per_frame > 0.0) {
+    problem.previous = {&previous, options_.step_per_frame, Previous{}.root_sigma};
+  }
+  Posture posture = previous;
+  const Descent descent = Minimise(problem, options_.max_iterations, posture);
+  report.iterations = descent.iterations;
+  report.mean_residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
+  report.solved = true;
+
+  if (!(report.mean_residual < options_.restart_residual)) {
+    State fresh;
+    const PoseSolverReport cold = SolveCold(frame, fresh);
+    // Judged without the temporal prior, which a restart rightly breaks.
+    const Problem plain{model_, frame, problem.loss, {}};
+    if (cold.solved && Cost(plain, PostureFromPose(fresh.pose)) < 0.8 * Cost(plain, posture)) {
+      state.pose = fresh.pose;
+      report = cold;
+      report.restarted = true;
+      return report;
+    }
+  }
+  state.pose = PoseFromPosture(posture);
+  return report;
+}
+
+PoseSolverReport PoseSolver::SolveCold(const MarkerFrame& frame, State& state) const {
+  PoseSolverReport report;
+  report.visible = CountVisible(model_, frame);
+  if (report.visible < kMinMarkers) return report;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (const ColdGuess guess : kColdGuesses) {
+    Posture posture = PostureFromPose(GuessPose(model_, frame, guess));
+    Descent descent;
+    for (const double factor : {12.0, 4.0, 1.0}) {
+      const Problem problem{model_, frame, {factor * options_.sigma, options_.outlier_factor}, {}};
+      const Descent stage = Minimise(problem, kColdIterations, posture);
+      report.iterations += stage.iterations;
+      descent.cost = stage.cost;
+    }
+    const double residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
+    if (!(descent.cost < best_cost)) continue;
+    best_cost = descent.cost;
+    state.pose = PoseFromPosture(posture);
+    state.started = true;
+    report.solved = true;
+    report.mean_residual = residual;
+    if (residual < 0.5 * options_.restart_residual) break;
+  }
+  return report;
+}
+
+}  // namespace ego

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/math.h"
+#include "core/skeleton/pose.h"
+#include "core/skeleton/skeleton.h"
+
+namespace ego {
+
+/// Degrees of freedom of a posture: root translation and rotation, ball joints, and hinges
+/// (elbow, knee) of one flexion and one axial rotation. Toes stay straight.
+inline constexpr std::size_t kPoseDof = 59;
+
+/// What a degree of freedom does to what hangs on its joint.
+enum class DofKind : std::uint8_t { kTranslation, kBall, kFlexion, kAxial };
+
+struct Dof {
+  HumanoidJoint joint = HumanoidJoint::kHips;
+  DofKind kind = DofKind::kBall;
+  int axis = 0;  // of a translation: world axis; of a ball: axis of the joint's own frame
+};
+
+/// In joint order, so that a joint's chain has ascending indices.
+const std::array<Dof, kPoseDof>& Dofs();
+
+/// Index of a joint's first degree of freedom of rotation, and how many it has (toes: none).
+struct DofRange {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+DofRange DofsOf(HumanoidJoint joint);
+
+/// The degrees of freedom that move points carried by a joint, ascending.
+std::span<const std::uint8_t> Chain(HumanoidJoint joint);
+
+/// A pose on the solver's coordinates: mid joints of limbs are hinges,
+/// rotation = flexion about FlexionAxis, then axial rotation about the bone.
+struct Posture {
+  Vec3 root_ws{0.0};
+  std::array<Quat, kJointCount> rotation_ls{};  // of mid joints: made from the two angles below
+  std::array<double, kLimbCount> flexion{};     // radians
+  std::array<double, kLimbCount> axial{};       // radians
+};
+
+/// The posture nearest to a pose: a mid joint's rotation off the hinge is dropped, and the toes'.
+Posture PostureFromPose(const Pose& pose);
+Pose PoseFromPosture(const Posture& posture);
+
+/// The posture moved by a step of all degrees of freedom: root_ws + step, rotation * exp(step),
+/// angle + step.
+Posture Moved(const Posture& posture, std::span<const double, kPoseDof> step);
+
+/// World axes of all degrees of freedom of a posed skeleton: the direction of a translation, the
+/// axis of a rotation (a point x moves by axis x (x - joint) per radian).
+void DofAxes(const ModelPose& model, std::array<Vec3, kPoseDof>& axis_ws);
+
+/// Rotation vector of the shorter turn.
+Vec3 RotationVector(const Quat& q);
+Quat Exp(const Vec3& rotation_vector);
+/// d RotationVector(q exp(delta)) / d delta at delta = 0, where v = RotationVector(q).
+Mat3 RotationVectorJacobian(const Vec3& v);
+
+}  // namespace ego

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/base/math.h"
+#include "core/markers/marker_take.h"
+#include "core/solve/pose_solver.h"
+#include "core/solve/posture.h"
+
+namespace ego {
+
+/// Soft loss of a marker's error: Cauchy, 1/2 c^2 log(1 + r^2 / c^2) / sigma^2 with
+/// c = outlier_factor * sigma. Quadratic near zero; far off, the pull fades as 1 / r.
+struct MarkerLoss {
+  double sigma = 0.008;
+  double outlier_factor = 5.0;
+
+  double Cost(double squared_distance) const;
+  /// Weight of the squared error in the equivalent least squares.
+  double Weight(double squared_distance) const;
+};
+
+/// Temporal prior: the posture of the frame before, and how far a joint may go from it.
+struct Previous {
+  const Posture* posture = nullptr;  // null: no such prior
+  double rotation_sigma = Radians(8.0);
+  double root_sigma = 0.05;
+};
+
+/// Normal equations of one posture: H step = -g. Lower triangle, row-major.
+struct NormalEquations {
+  std::array<double, kPoseDof * kPoseDof> h{};
+  std::array<double, kPoseDof> g{};
+};
+
+/// Cost of the priors of a posture: what markers see badly stays near its neutral place, elbows
+/// and knees do not over-stretch, joints stay near the previous frame's.
+double PriorCost(const Posture& posture, const Previous& previous);
+/// Adds the priors' part; returns PriorCost.
+double AddPriors(const Posture& posture, const Previous& previous, NormalEquations& equations);
+
+/// Cost of the visible markers.
+double MarkerCost(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose,
+                  const MarkerLoss& loss);
+/// Adds the markers' part (Gauss-Newton with the loss's weights); returns MarkerCost.
+double AddMarkers(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose,
+                  const MarkerLoss& loss, NormalEquations& equations);
+
+/// d(point) / d(dof) of a point carried by `joint`, in the order of Chain(joint).
+void PointJacobian(HumanoidJoint joint, const Vec3& point_ws, const ModelPose& pose,
+                   const std::array<Vec3, kPoseDof>& axis_ws,
+                   std::array<Vec3, kPoseDof>& column_ws);
+
+/// Forward kinematics of a posture.
+ModelPose Placed(const Skeleton& skeleton, const Posture& posture);
+
+/// The neutral posture of the priors: arms hanging, elbows a little bent. Root at the origin.
+const Posture& NeutralPosture();
+
+}  // namespace ego
