@@ -30,6 +30,10 @@ inline constexpr glm::vec3 kSkeleton = Srgb(0xF1F1EE);
 inline constexpr glm::vec3 kContact = Srgb(0xFFD84A);
 inline constexpr glm::vec3 kPenetration = Srgb(0xFF2E55);
 
+/// The floor in the middle of the stage's light, and the lines of its grid.
+inline constexpr glm::vec3 kFloor = Srgb(0x464B54);
+inline constexpr glm::vec3 kGrid = Srgb(0x6E7683);
+
 /// The colour that an avatar keeps in every view, by its place in the project.
 glm::vec3 AvatarColor(std::size_t index);
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "render/gl/stage_buffers.h"
+
+#include <array>
+#include <cstddef>
+
+#include "render/stage_meshes.h"
+
+namespace ego::gl {
+namespace {
+
+void Fill(GLenum target, const Buffer& buffer, const void* data, std::size_t bytes, GLenum usage) {
+  glBindBuffer(target, buffer.Name());
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), data, usage);
+}
+
+template <class T>
+void Stream(GLenum target, const Buffer& buffer, std::span<const T> data) {
+  Fill(target, buffer, data.data(), data.size_bytes(), GL_STREAM_DRAW);
+}
+
+const void* Offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+void Attribute(GLuint index, GLint components, std::size_t stride, std::size_t offset,
+               GLuint divisor = 0) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                        Offset(offset));
+  glVertexAttribDivisor(index, divisor);
+}
+
+}  // namespace
+
+void StageBuffers::Create() {
+  for (VertexArray* array :
+       {&mesh_array_, &capsule_array_, &square_array_, &spot_array_, &plate_array_}) {
+    *array = VertexArray::Make();
+  }
+  for (Buffer* buffer : {&positions_, &normals_, &uvs_, &indices_, &capsule_points_,
+                         &capsule_indices_, &capsule_instances_, &square_, &spots_, &plates_}) {
+    *buffer = Buffer::Make();
+  }
+
+  glBindVertexArray(mesh_array_.Name());
+  glBindBuffer(GL_ARRAY_BUFFER, positions_.Name());
+  Attribute(0, 3, sizeof(glm::vec3), 0);
+  glBindBuffer(GL_ARRAY_BUFFER, normals_.Name());
+  Attribute(1, 3, sizeof(glm::vec3), 0);
+  glBindBuffer(GL_ARRAY_BUFFER, uvs_.Name());
+  Attribute(2, 2, sizeof(glm::vec2), 0);
+
+  const CapsuleMesh capsule = MakeCapsuleMesh(18, 4);
+  capsule_index_count_ = static_cast<GLsizei>(capsule.indices.size());
+  glBindVertexArray(capsule_array_.Name());
+  Fill(GL_ARRAY_BUFFER, capsule_points_, capsule.points.data(),
+       capsule.points.size() * sizeof(glm::vec4), GL_STATIC_DRAW);
+  Attribute(0, 4, sizeof(glm::vec4), 0);
+  Fill(GL_ELEMENT_ARRAY_BUFFER, capsule_indices_, capsule.indices.data(),
+       capsule.indices.size() * sizeof(std::uint16_t), GL_STATIC_DRAW);
+
+  constexpr std::array<glm::vec2, 4> kSquare = {glm::vec2{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+  glBindVertexArray(square_array_.Name());
+  Fill(GL_ARRAY_BUFFER, square_, kSquare.data(), sizeof(kSquare), GL_STATIC_DRAW);
+  Attribute(0, 2, sizeof(glm::vec2), 0);
+  glBindVertexArray(spot_array_.Name());
+  Attribute(0, 2, sizeof(glm::vec2), 0);
+
+  glBindVertexArray(plate_array_.Name());
+  glBindBuffer(GL_ARRAY_BUFFER, plates_.Name());
+  Attribute(0, 3, sizeof(PlateVertex), offsetof(PlateVertex, position));
+  Attribute(1, 2, sizeof(PlateVertex), offsetof(PlateVertex, local));
+  Attribute(2, 4, sizeof(PlateVertex), offsetof(PlateVertex, shape));
+  Attribute(3, 2, sizeof(PlateVertex), offsetof(PlateVertex, uv));
+  Attribute(4, 4, sizeof(PlateVertex), offsetof(PlateVertex, color));
+  glBindVertexArray(0);
+
+  glyphs_ = Texture::Make();
+  glBindTexture(GL_TEXTURE_2D, glyphs_.Name());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void StageBuffers::Upload(const DrawList& list) {
+  Stream(GL_ARRAY_BUFFER, positions_, std::span(list.positions));
+  Stream(GL_ARRAY_BUFFER, normals_, std::span(list.normals));
+  Stream(GL_ARRAY_BUFFER, uvs_, std::span(list.uvs));
+  Stream(GL_ARRAY_BUFFER, capsule_instances_, std::span(list.capsules));
+  shadow_spots_ = list.contact_shadows.size();
+  glow_spots_ = list.glows.size();
+  std::vector<DrawList::Spot> spots = list.contact_shadows;
+  spots.insert(spots.end(), list.glows.begin(), list.glows.end());
+  Stream(GL_ARRAY_BUFFER, spots_, std::span<const DrawList::Spot>(spots));
+  // The element array is part of the vertex array's state.
+  glBindVertexArray(mesh_array_.Name());
+  Stream(GL_ELEMENT_ARRAY_BUFFER, indices_, std::span(list.indices));
+  glBindVertexArray(0);
+}
+
+void StageBuffers::UploadPlates(std::span<const PlateVertex> vertices, TextAtlas& atlas) {
+  Stream(GL_ARRAY_BUFFER, plates_, vertices);
+  plate_vertices_ = static_cast<GLsizei>(vertices.size());
+  if (!atlas.TakeChanged()) return;
+  glBindTexture(GL_TEXTURE_2D, glyphs_.Name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, TextAtlas::kSide, TextAtlas::kSide, 0, GL_RED,
+               GL_UNSIGNED_BYTE, atlas.Pixels().data());
+}
+
+void StageBuffers::DrawMesh(const DrawList::Mesh& mesh, const CharacterBuffers* character) const {
+  glBindVertexArray(mesh_array_.Name());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER,
+               character != nullptr ? character->indices.Name() : indices_.Name());
+  glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT,
+                           Offset(mesh.first_index * sizeof(std::uint32_t)),
+                           static_cast<GLint>(mesh.first_vertex));
+}
+
+void StageBuffers::DrawCapsules(std::uint32_t first, std::uint32_t count) const {
+  if (count == 0) return;
+  glBindVertexArray(capsule_array_.Name());
+  glBindBuffer(GL_ARRAY_BUFFER, capsule_instances_.Name());
+  const std::size_t base = first * sizeof(CapsuleInstance);
+  Attribute(3, 4, sizeof(CapsuleInstance), base + offsetof(CapsuleInstance, end_a), 1);
+  Attribute(4, 4, sizeof(CapsuleInstance), base + offsetof(CapsuleInstance, end_b), 1);
+  Attribute(5, 4, sizeof(CapsuleInstance), base + offsetof(CapsuleInstance, color), 1);
+  glDrawElementsInstanced(GL_TRIANGLES, capsule_index_count_, GL_UNSIGNED_SHORT, nullptr,
+                          static_cast<GLsizei>(count));
+}
+
+void StageBuffers::DrawSpots(bool glows) const {
+  const std::size_t count = glows ? glow_spots_ : shadow_spots_;
+  if (count == 0) return;
+  glBindVertexArray(spot_array_.Name());
+  glBindBuffer(GL_ARRAY_BUFFER, spots_.Name());
+  const std::size_t base = glows ? shadow_spots_ * sizeof(DrawList::Spot) : 0;
+  Attribute(3, 4, sizeof(DrawList::Spot), base + offsetof(DrawList::Spot, center), 1);
+  Attribute(4, 4, sizeof(DrawList::Spot), base + offsetof(DrawList::Spot, color), 1);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+}
+
+void StageBuffers::DrawSquare() const {
+  glBindVertexArray(square_array_.Name());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void StageBuffers::DrawPlates() const {
+  glBindVertexArray(plate_array_.Name());
+  glDrawArrays(GL_TRIANGLES, 0, plate_vertices_);
+}
+
+}  // namespace ego::gl

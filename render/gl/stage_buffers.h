@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "render/draw_list.h"
+#include "render/gl/handle.h"
+#include "render/plate_layout.h"
+#include "render/text_atlas.h"
+
+namespace ego::gl {
+
+/// What a loaded character keeps on the graphics side: indices and pictures. Its vertices are
+/// skinned by the processor and streamed each frame.
+struct CharacterBuffers {
+  Buffer indices;
+  std::vector<Texture> images;  // as Character::images
+};
+
+/// The vertex data of one picture, uploaded anew each time, and how shaders read it.
+class StageBuffers {
+ public:
+  void Create();
+  void Upload(const DrawList& list);
+  void UploadPlates(std::span<const PlateVertex> vertices, TextAtlas& atlas);
+
+  /// Draws a mesh with the indices of its character (null: the list's own).
+  void DrawMesh(const DrawList::Mesh& mesh, const CharacterBuffers* character) const;
+  void DrawCapsules(std::uint32_t first, std::uint32_t count) const;
+  void DrawSpots(bool glows) const;
+  void DrawSquare() const;
+  void DrawPlates() const;
+  GLuint GlyphTexture() const { return glyphs_.Name(); }
+
+ private:
+  VertexArray mesh_array_, capsule_array_, square_array_, spot_array_, plate_array_;
+  Buffer positions_, normals_, uvs_, indices_;
+  Buffer capsule_points_, capsule_indices_, capsule_instances_;
+  Buffer square_, spots_, plates_;
+  Texture glyphs_;
+  GLsizei capsule_index_count_ = 0;
+  std::size_t shadow_spots_ = 0, glow_spots_ = 0;
+  GLsizei plate_vertices_ = 0;
+};
+
+}  // namespace ego::gl

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "render/plate_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace ego {
+namespace {
+
+constexpr float kTypeSize = 15.0f;
+constexpr float kHeight = 26.0f;
+constexpr float kPadding = 11.0f;
+constexpr float kMark = 8.0f;  // across
+constexpr float kGap = 7.0f;
+constexpr float kOpacity = 0.86f;
+
+struct Placed {
+  const DrawList::Plate* plate = nullptr;
+  float depth = 0.0f;  // clip space
+  double distance = 0.0;
+  glm::vec2 min{0.0f}, max{0.0f};  // pixels, y down
+  std::vector<TextAtlas::Quad> quads;
+};
+
+class Writer {
+ public:
+  Writer(ViewportSize size, std::vector<PlateVertex>& out)
+      : size_(size.width, size.height), out_(out) {}
+
+  void Rectangle(const glm::vec2& min, const glm::vec2& max, float depth, float radius,
+                 const glm::vec4& color) {
+    // A pixel more on each side, for the soft edge.
+    Quad(min - 1.0f, max + 1.0f, depth, {0.5f * (max - min), radius, 0.0f}, {}, {}, color);
+  }
+  void Glyph(const glm::vec2& pen, const TextAtlas::Quad& quad, float depth,
+             const glm::vec4& color) {
+    Quad(pen + quad.min, pen + quad.max, depth, {1.0f, 1.0f, 0.0f, 1.0f}, quad.uv_min, quad.uv_max,
+         color);
+  }
+
+ private:
+  void Quad(const glm::vec2& min, const glm::vec2& max, float depth, const glm::vec4& shape,
+            const glm::vec2& uv_min, const glm::vec2& uv_max, const glm::vec4& color) {
+    constexpr std::array<glm::vec2, 6> kCorners = {glm::vec2{0, 0}, {1, 0}, {1, 1},
+                                                   glm::vec2{0, 0}, {1, 1}, {0, 1}};
+    for (const glm::vec2& c : kCorners) {
+      const glm::vec2 pixel = glm::mix(min, max, c);
+      const glm::vec2 ndc = 2.0f * pixel / size_ - 1.0f;
+      out_.push_back({{ndc.x, -ndc.y, depth},
+                      pixel - 0.5f * (min + max),
+                      shape,
+                      glm::mix(uv_min, uv_max, c),
+                      color});
+    }
+  }
+  glm::vec2 size_;
+  std::vector<PlateVertex>& out_;
+};
+
+}  // namespace
+
+void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera, ViewportSize size,
+                  float content_scale, TextAtlas& atlas, std::vector<PlateVertex>& out) {
+  const float s = std::clamp(content_scale, 0.5f, 8.0f);
+  atlas.SetSize(std::round(kTypeSize * s));
+  const Mat4 clip = camera.Projection(size) * camera.View();
+  const auto snap = [](float v) { return std::round(v); };
+
+  std::vector<Placed> placed;
+  for (const DrawList::Plate& plate : plates) {
+    const std::optional<Vec3> pixel = camera.Project(plate.anchor_ws, size);
+    if (!pixel) continue;
+    Placed& p = placed.emplace_back();
+    p.plate = &plate;
+    p.distance = pixel->z;
+    // A little nearer than its anchor, so that the floor and the own toes do not cut it.
+    const Vec3 near = plate.anchor_ws + std::min(0.25, 0.5 * pixel->z) *
+                                            glm::normalize(camera.Position() - plate.anchor_ws);
+    const Vec4 h = clip * Vec4(near, 1.0);
+    p.depth = static_cast<float>(h.z / h.w);
+    const float text = atlas.Layout(plate.name, p.quads);
+    const float width = text + s * (2.0f * kPadding + kMark + kGap);
+    p.min = {snap(static_cast<float>(pixel->x) - 0.5f * width), snap(static_cast<float>(pixel->y))};
+    p.max = p.min + glm::vec2{std::ceil(width), snap(s * kHeight)};
+  }
+  // The nearest keep their place; others give way downwards.
+  std::stable_sort(placed.begin(), placed.end(),
+                   [](const Placed& a, const Placed& b) { return a.distance < b.distance; });
+  for (std::size_t i = 1; i < placed.size(); ++i) {
+    for (std::size_t tries = 0, k = 0; k < i && tries < 32; ++k) {
+      const Placed& other = placed[k];
+      Placed& p = placed[i];
+      const bool apart = p.min.x > other.max.x || p.max.x < other.min.x || p.min.y > other.max.y ||
+                         p.max.y < other.min.y;
+      if (apart) continue;
+      const float down = other.max.y + snap(3.0f * s) - p.min.y;
+      p.min.y += down;
+      p.max.y += down;
+      k = static_cast<std::size_t>(-1);
+      ++tries;
+    }
+  }
+
+  Writer writer(size, out);
+  for (auto it = placed.rbegin(); it != placed.rend(); ++it) {
+    const Placed& p = *it;
+    const float radius = 0.5f * (p.max.y - p.min.y);
+    writer.Rectangle(p.min, p.max, p.depth, radius, glm::vec4(look::kPanel, kOpacity));
+    const float middle = 0.5f * (p.min.y + p.max.y);
+    const glm::vec2 mark{p.min.x + s * kPadding, middle - 0.5f * s * kMark};
+    writer.Rectangle(mark, mark + s * kMark, p.depth, 0.5f * s * kMark,
+                     glm::vec4(p.plate->color, 1.0f));
+    const glm::vec2 pen{snap(mark.x + s * (kMark + kGap)), snap(middle + 0.5f * atlas.CapHeight())};
+    for (const TextAtlas::Quad& quad : p.quads) {
+      writer.Glyph(pen, quad, p.depth, glm::vec4(look::kText, 1.0f));
+    }
+  }
+}
+
+}  // namespace ego

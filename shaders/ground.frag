@@ -1,0 +1,47 @@
+// The floor: a pool of light where the bodies stand, which fades into the room; a fine grid every
+// quarter metre and a heavier line each metre.
+#include "light.glsl"
+
+in vec3 position_ws;
+in vec3 shadow_position;
+
+uniform vec3 room_color;   // sRGB, where the floor has faded
+uniform vec3 floor_color;  // linear, in the middle of the pool
+uniform vec3 line_color;   // linear
+uniform vec3 pool_center;
+uniform float pool_radius;
+uniform float grid_strength;
+uniform vec2 picture_center;  // pixels
+uniform float vignette;       // per square pixel
+
+out vec4 pixel;
+
+// How much of the pixel a line of this width covers, for lines at every multiple of `step`.
+// Where lines come closer than pixels it settles at their mean.
+float Line(vec2 p, vec2 footprint, float step, float width) {
+  vec2 d = abs(fract(p / step + 0.5) - 0.5) * step;
+  vec2 w = max(vec2(width), footprint);
+  vec2 cover = clamp((w - d) / max(footprint, 1e-5) , 0.0, 1.0) * min(vec2(1.0), width / w);
+  return max(cover.x, cover.y);
+}
+
+void main() {
+  vec2 p = position_ws.xz;
+  vec2 footprint = fwidth(p);
+  float from_pool = length(p - pool_center.xz) / pool_radius;
+  float pool = 1.0 / (1.0 + from_pool * from_pool * from_pool);
+  float away = length(position_ws - camera_position);
+  float far_fade = clamp(1.25 - away / 32.0, 0.0, 1.0);
+  float near_fade = clamp(1.2 - away / 12.0, 0.0, 1.0);
+
+  float lit = SoftLit(shadow_position);
+  vec3 floor_light = floor_color * (0.42 + 0.58 * lit);
+  float grid = max(0.85 * Line(p, footprint, 1.0, 0.0065),
+                   0.30 * near_fade * Line(p, footprint, 0.25, 0.0035));
+  floor_light = mix(floor_light, line_color * (0.35 + 0.65 * lit), grid_strength * grid);
+
+  vec3 color = mix(room_color, Encode(floor_light), pool * far_fade);
+  vec2 d = gl_FragCoord.xy - picture_center;
+  color *= 1.0 - vignette * dot(d, d);
+  pixel = vec4(color + Dither(gl_FragCoord.xy), 1.0);
+}
