@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "core/body/body.h"
@@ -55,11 +54,11 @@ struct RetargetScore {
   ContactScore wrist;  // the hand joint, thinner by the hand's half thickness
   ContactScore palm;
   ContactScore fingertip;
-  Statistic arm_penetration;    // shares of height: arm capsules in trunk and head, beyond the
-                                // performer's own; one value per arm and frame
-  Statistic foot_height_error;  // shares of height, stance frames
-  Statistic foot_slide;         // shares of height per second beyond the performer's, stance frames
-  double largest_step = 0.0;    // radians: any joint's world rotation, from frame to frame
+  Statistic arm_penetration;        // shares of height: arm capsules in trunk and head, beyond the
+                                    // performer's own; one value per arm and frame
+  Statistic foot_height_error;      // shares of height, stance frames
+  Statistic foot_slide;             // shares of height per second beyond the performer's, same
+  double largest_step = 0.0;        // radians: any joint's world rotation, from frame to frame
   double largest_added_step = 0.0;  // radians: the same, less the performer's step of that joint
   std::size_t largest_step_frame = 0;
   std::size_t largest_added_step_frame = 0;
@@ -68,8 +67,6 @@ struct RetargetScore {
   // The previous frame, for steps and speeds.
   ModelPose last_performer;
   ModelPose last_avatar;
-  std::array<Vec3, 2> last_performer_sole_ws{};
-  std::array<Vec3, 2> last_avatar_sole_ws{};
 };
 
 /// Adds one frame. `rate_hz` is the take's rate, above zero.

@@ -13,9 +13,9 @@ std::filesystem::path SharedData(std::string_view relative);
 }  // namespace ego::test
 
 /// Declares `path` and skips the test when the file is absent.
-#define EGO_SHARED_DATA_OR_SKIP(path, relative)                                    \
-  const std::filesystem::path path = ::ego::test::SharedData(relative);            \
-  if (!std::filesystem::exists(path)) {                                            \
+#define EGO_SHARED_DATA_OR_SKIP(path, relative)                                      \
+  const std::filesystem::path path = ::ego::test::SharedData(relative);              \
+  if (!std::filesystem::exists(path)) {                                              \
     GTEST_SKIP() << "no real data beside the project: " << relative << " not found"; \
-  }                                                                                \
+  }                                                                                  \
   static_assert(true)

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "assets/calibration/proposal_draft.h"
+
+namespace ego {
+namespace {
+
+using S = SamplePoint;
+
+SkinRegion RegionFor(S point) {
+  switch (point) {
+    case S::kPubis:
+    case S::kSacrum:
+    case S::kLeftHipSide:
+    case S::kRightHipSide:
+      return SkinRegion::kPelvis;
+    case S::kLeftShoulderTop:
+    case S::kRightShoulderTop:
+      return SkinRegion::kShoulders;
+    case S::kThroat:
+      return SkinRegion::kHeadAndNeck;
+    default:
+      return IsHead(point) ? SkinRegion::kHead : SkinRegion::kTrunk;
+  }
+}
+
+/// One side against the other: `mirrored` is the other side's place seen from this one.
+void ReconcilePair(ProposalDraft& draft, CalibrationPoint& left, CalibrationPoint& right,
+                   SkinRegion left_region, SkinRegion right_region) {
+  if (left.state == PickState::kMissing || right.state == PickState::kMissing) return;
+  const auto mirrored = [&](const Vec3& p) { return Vec3{2.0 * draft.middle_x - p.x, p.y, p.z}; };
+  const Vec3 l = draft.probe.PositionOf(left.place);
+  const Vec3 r = draft.probe.PositionOf(right.place);
+  const double apart = glm::distance(l, mirrored(r));
+  const double height = draft.template_body.height;
+  if (apart < 0.01 * height) return;
+  const auto follow = [&](CalibrationPoint& weak, const CalibrationPoint& strong, const Vec3& from,
+                          SkinRegion region) {
+    const auto hit = draft.probe.Nearest(region, mirrored(from));
+    if (!hit) return;
+    ProposalDraft::Put(weak, *hit, 0.75 * strong.confidence, "taken over from the other side");
+  };
+  if (left.confidence < kDoubtBelow && right.confidence > left.confidence + 0.15) {
+    follow(left, right, r, left_region);
+  } else if (right.confidence < kDoubtBelow && left.confidence > right.confidence + 0.15) {
+    follow(right, left, l, right_region);
+  } else if (apart > 0.04 * height) {
+    for (CalibrationPoint* point : {&left, &right}) {
+      point->confidence *= 0.6;
+      if (point->confidence < kDoubtBelow) point->state = PickState::kDoubtful;
+      point->reason = "left and right differ";
+    }
+  }
+}
+
+/// How sound a crude triangle is: 1 for one that faces as the template's does and is no sliver,
+/// at most 0 for one that faces inward or has no area.
+double Soundness(const ProposalDraft& draft, std::size_t index, const Vec3& trunk_middle,
+                 const Vec3& head_middle) {
+  const SampleTriangle& t = SampleTriangles()[index];
+  const std::array<Vec3, 3> p = {draft.At(t[0]), draft.At(t[1]), draft.At(t[2])};
+  const std::array<Vec3, 3> q = {draft.TemplateAt(t[0]), draft.TemplateAt(t[1]),
+                                 draft.TemplateAt(t[2])};
+  const Vec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
+  const double area2 = glm::length(cross);
+  const double longest =
+      std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+  if (!(longest > 0.0) || area2 < 0.02 * longest * longest) return 0.0;
+  const Vec3 normal = cross / area2;
+  const Vec3 usual = glm::normalize(glm::cross(q[1] - q[0], q[2] - q[0]));
+  const Vec3 middle = IsHead(t[0]) ? head_middle : trunk_middle;
+  const Vec3 out = (p[0] + p[1] + p[2]) / 3.0 - middle;
+  const double outward = glm::dot(normal, out) / std::max(glm::length(out), 1e-12);
+  return std::max(glm::dot(normal, usual), 0.5 * outward);
+}
+
+}  // namespace
+
+void ReconcileSides(ProposalDraft& draft) {
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    const auto left = static_cast<S>(i);
+    const S right = Mirror(left);
+    if (Index(right) <= i) continue;
+    ReconcilePair(draft, draft.calibration.At(left), draft.calibration.At(right), RegionFor(left),
+                  RegionFor(right));
+  }
+  auto& [left_hand, right_hand] = draft.calibration.hand;
+  constexpr SkinRegion kLeft = SkinRegion::kLeftHand;
+  constexpr SkinRegion kRight = SkinRegion::kRightHand;
+  ReconcilePair(draft, left_hand.palm, right_hand.palm, kLeft, kRight);
+  ReconcilePair(draft, left_hand.back_of_hand, right_hand.back_of_hand, kLeft, kRight);
+  ReconcilePair(draft, left_hand.fingertip, right_hand.fingertip, kLeft, kRight);
+
+  for (const LimbSegment left : {LimbSegment::kLeftUpperArm, LimbSegment::kLeftForearm,
+                                 LimbSegment::kLeftThigh, LimbSegment::kLeftCalf}) {
+    SegmentCalibration& l = draft.calibration.At(left);
+    SegmentCalibration& r = draft.calibration.At(static_cast<LimbSegment>(Index(left) + 2));
+    const auto follow = [](SegmentCalibration& weak, const SegmentCalibration& strong) {
+      weak.dots.clear();
+      weak.radius = strong.radius;
+      weak.confidence = 0.75 * strong.confidence;
+      weak.state = weak.confidence < kDoubtBelow ? PickState::kDoubtful : PickState::kProposed;
+      weak.reason = "taken over from the other side";
+    };
+    if (l.confidence < kDoubtBelow && r.confidence > l.confidence + 0.3) follow(l, r);
+    if (r.confidence < kDoubtBelow && l.confidence > r.confidence + 0.3) follow(r, l);
+  }
+}
+
+void MendTriangles(ProposalDraft& draft) {
+  constexpr double kSound = 0.05;
+  constexpr std::array<double, 4> kTowardsTemplate = {0.3, 0.5, 0.75, 1.0};
+  Vec3 trunk{0.0};
+  Vec3 head{0.0};
+  const auto measure_middles = [&] {
+    trunk = head = Vec3{0.0};
+    for (std::size_t i = 0; i < kSampleCount; ++i) {
+      const Vec3 p = draft.At(static_cast<S>(i));
+      if (i < kTrunkSampleCount) {
+        trunk += p / static_cast<double>(kTrunkSampleCount);
+      } else {
+        head += p / static_cast<double>(kSampleCount - kTrunkSampleCount);
+      }
+    }
+  };
+  for (const double share : kTowardsTemplate) {
+    measure_middles();
+    std::array<bool, kSampleCount> move{};
+    bool any = false;
+    for (std::size_t i = 0; i < kTriangleCount; ++i) {
+      if (Soundness(draft, i, trunk, head) > kSound) continue;
+      any = true;
+      double least = 2.0;
+      for (const S p : SampleTriangles()[i]) {
+        least = std::min(least, draft.calibration.At(p).confidence);
+      }
+      for (const S p : SampleTriangles()[i]) {
+        move[Index(p)] = move[Index(p)] || draft.calibration.At(p).confidence < least + 0.1;
+      }
+    }
+    if (!any) return;
+    for (std::size_t i = 0; i < kSampleCount; ++i) {
+      if (!move[i]) continue;
+      const auto p = static_cast<S>(i);
+      const Vec3 wanted = glm::mix(draft.At(p), draft.TemplateAt(p), share);
+      const double before = draft.calibration.At(p).confidence;
+      draft.PutNearest(draft.calibration.At(p), RegionFor(p), wanted,
+                       "moved, because the crude mesh would fold here");
+      CalibrationPoint& point = draft.calibration.At(p);
+      point.confidence = std::min(before, 0.45);
+      if (point.state != PickState::kMissing) point.state = PickState::kDoubtful;
+    }
+  }
+  measure_middles();
+  for (std::size_t i = 0; i < kTriangleCount; ++i) {
+    if (Soundness(draft, i, trunk, head) > kSound) continue;
+    for (const S p : SampleTriangles()[i]) {
+      CalibrationPoint& point = draft.calibration.At(p);
+      point.confidence = std::min(point.confidence, 0.2);
+      if (point.state != PickState::kMissing) point.state = PickState::kDoubtful;
+      point.reason = "the crude mesh folds here";
+    }
+  }
+}
+
+}  // namespace ego

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "assets/calibration/skin_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace ego {
+namespace {
+
+using J = HumanoidJoint;
+using Mask = std::uint32_t;
+
+constexpr double kFar = 1e6;
+
+constexpr Mask Of(std::initializer_list<J> joints) {
+  Mask mask = 0;
+  for (const J joint : joints) mask |= Mask{1} << Index(joint);
+  return mask;
+}
+
+constexpr Mask kTrunk = Of({J::kHips, J::kSpine, J::kChest, J::kUpperChest, J::kNeck,
+                            J::kLeftShoulder, J::kRightShoulder});
+
+/// The joints whose skin a region holds.
+constexpr std::array<Mask, kSkinRegionCount> kMasks = {
+    kTrunk,
+    kTrunk | Of({J::kLeftUpperLeg, J::kRightUpperLeg}),
+    kTrunk | Of({J::kLeftUpperArm, J::kRightUpperArm}),
+    Of({J::kHead}),
+    Of({J::kHead, J::kNeck}),
+    Of({J::kLeftHand}),
+    Of({J::kRightHand}),
+    Of({J::kLeftFoot, J::kLeftToes}),
+    Of({J::kRightFoot, J::kRightToes}),
+    Of({J::kLeftShoulder, J::kLeftUpperArm, J::kLeftLowerArm}),
+    Of({J::kLeftUpperArm, J::kLeftLowerArm, J::kLeftHand}),
+    Of({J::kRightShoulder, J::kRightUpperArm, J::kRightLowerArm}),
+    Of({J::kRightUpperArm, J::kRightLowerArm, J::kRightHand}),
+    Of({J::kHips, J::kLeftUpperLeg, J::kLeftLowerLeg}),
+    Of({J::kLeftUpperLeg, J::kLeftLowerLeg, J::kLeftFoot}),
+    Of({J::kHips, J::kRightUpperLeg, J::kRightLowerLeg}),
+    Of({J::kRightUpperLeg, J::kRightLowerLeg, J::kRightFoot}),
+};
+
+SkinHit FromBvh(const MeshBvh::Hit& hit) {
+  return {hit.place, hit.position_ws, hit.normal_ws, hit.distance, false};
+}
+
+}  // namespace
+
+SkinProbe::SkinProbe(const Character& character)
+    : character_(&character),
+      mesh_(CanonicalMesh(character)),
+      joint_(CanonicalPositions(character.rig.skeleton)) {
+  std::vector<std::vector<Mask>> regions_of(character.parts.size());  // bit per region
+  for (std::size_t p = 0; p < character.parts.size(); ++p) {
+    const MeshPart& part = character.parts[p];
+    std::vector<std::array<double, kJointCount>> share(part.positions.size());
+    for (std::size_t v = 0; v < share.size(); ++v) share[v] = JointShares(character, part, v);
+    regions_of[p].assign(part.triangles.size() / 3, 0);
+    for (std::size_t t = 0; 3 * t + 2 < part.triangles.size(); ++t) {
+      std::array<double, kJointCount> sum{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < kJointCount; ++j) {
+          sum[j] += share[part.triangles[3 * t + k]][j] / 3.0;
+        }
+      }
+      const std::vector<Vec3>& position = mesh_.position_ws[p];
+      const std::array<Vec3, 3> corner = {position[part.triangles[3 * t]],
+                                          position[part.triangles[3 * t + 1]],
+                                          position[part.triangles[3 * t + 2]]};
+      const double area =
+          0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+      if (!(area > 0.0)) continue;
+      for (std::size_t r = 0; r < kSkinRegionCount; ++r) {
+        double in_region = 0.0;
+        for (std::size_t j = 0; j < kJointCount; ++j) {
+          if ((kMasks[r] >> j & 1u) != 0u) in_region += sum[j];
+        }
+        if (in_region < 0.5) continue;
+        regions_of[p][t] |= Mask{1} << r;
+        faces_[r].push_back({static_cast<int>(p), static_cast<std::uint32_t>(t), corner, area});
+      }
+    }
+  }
+  for (std::size_t r = 0; r < kSkinRegionCount; ++r) {
+    bvh_[r] = std::make_unique<MeshBvh>(character, mesh_, [&](int part, std::uint32_t triangle) {
+      return (regions_of[static_cast<std::size_t>(part)][triangle] >> r & 1u) != 0u;
+    });
+  }
+  all_ = std::make_unique<MeshBvh>(character, mesh_);
+}
+
+const std::vector<SkinProbe::Face>& SkinProbe::Faces(SkinRegion region) const {
+  return faces_[static_cast<std::size_t>(region)];
+}
+
+std::optional<SkinHit> SkinProbe::Outward(SkinRegion region, const Vec3& origin_ms,
+                                          const Vec3& direction, double gap) const {
+  const std::vector<MeshBvh::Hit> hits =
+      bvh_[static_cast<std::size_t>(region)]->AllHits(origin_ms, direction, kFar);
+  if (hits.empty()) return std::nullopt;
+  std::size_t at = 0;
+  bool loose = false;
+  for (std::size_t i = 1; i < hits.size(); ++i) {
+    const bool inside = glm::dot(hits[i - 1].normal_ws, direction) < 0.0;
+    if (!inside && hits[i].distance - hits[i - 1].distance > gap) {
+      loose = true;
+      break;
+    }
+    at = i;
+  }
+  SkinHit hit = FromBvh(hits[at]);
+  hit.loose_layer = loose;
+  return hit;
+}
+
+std::optional<SkinHit> SkinProbe::OutwardBundle(SkinRegion region, const Vec3& origin_ms,
+                                                const Vec3& direction, double gap, double spread,
+                                                double* agreement) const {
+  // Rays above and below, and to both sides alike, so that a mirrored mesh answers mirrored.
+  const Vec3 side =
+      glm::normalize(std::abs(direction.y) < 0.9 ? glm::cross(direction, kUp)
+                                                 : glm::cross(direction, Vec3{0.0, 0.0, 1.0}));
+  const Vec3 up = glm::cross(side, direction);
+  std::vector<SkinHit> hits;
+  std::optional<SkinHit> ahead;
+  for (const double u : {-1.0, 0.0, 1.0}) {
+    for (const double s : {-1.0, 0.0, 1.0}) {
+      const std::optional<SkinHit> hit =
+          Outward(region, origin_ms + spread * (u * up + s * side), direction, gap);
+      if (hit) hits.push_back(*hit);
+      if (u == 0.0 && s == 0.0) ahead = hit;
+    }
+  }
+  if (hits.size() < 5) {
+    *agreement = ahead ? 0.3 : 0.0;
+    return ahead;
+  }
+  std::sort(hits.begin(), hits.end(),
+            [](const SkinHit& a, const SkinHit& b) { return a.distance < b.distance; });
+  const SkinHit& middle = hits[hits.size() / 2];
+  const double tolerance = std::max(spread, 0.08 * middle.distance);
+  std::size_t agreeing = 0;
+  for (const SkinHit& hit : hits) {
+    agreeing += std::abs(hit.distance - middle.distance) <= tolerance ? 1u : 0u;
+  }
+  *agreement = static_cast<double>(agreeing) / 9.0;
+  if (ahead && std::abs(ahead->distance - middle.distance) <= tolerance) return ahead;
+  return middle;
+}
+
+std::optional<SkinHit> SkinProbe::Nearest(SkinRegion region, const Vec3& point_ms) const {
+  const std::optional<MeshBvh::Hit> hit = bvh_[static_cast<std::size_t>(region)]->Nearest(point_ms);
+  if (!hit) return std::nullopt;
+  return FromBvh(*hit);
+}
+
+std::optional<SkinHit> SkinProbe::NearestAnywhere(const Vec3& point_ms) const {
+  const std::optional<MeshBvh::Hit> hit = all_->Nearest(point_ms);
+  if (!hit) return std::nullopt;
+  return FromBvh(*hit);
+}
+
+}  // namespace ego

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "core/adapt/adapt.h"
+
+#include "core/adapt/adapt_state.h"
+#include "core/adapt/arm_clearance.h"
+#include "core/adapt/body_folding.h"
+#include "core/adapt/denormalize.h"
+#include "core/adapt/extremity.h"
+#include "core/adapt/spatial_order.h"
+#include "core/adapt/stance.h"
+
+namespace ego {
+namespace {
+
+constexpr std::array<Limb, 2> kArms = {Limb::kLeftArm, Limb::kRightArm};
+constexpr std::array<Limb, 2> kLegs = {Limb::kLeftLeg, Limb::kRightLeg};
+
+/// Section 6.1, after the captured joint angles: arms that need not fight their way out of the
+/// legs.
+void InitializeArms(AdaptState& state) {
+  std::array<LimbPosture, 2> posture;
+  for (const Limb arm : kArms) {
+    const LimbTargets targets = InitialTargets(state, arm);
+    posture[Index(arm)] = BlendedIk(state.chain[Index(arm)], state.limb[Index(arm)], targets.mid,
+                                    targets.end, state.gamma[Index(arm)]);
+  }
+  for (const Limb arm : kArms) state.Apply(arm, posture[Index(arm)]);
+}
+
+/// One limb: attraction towards the targets in proportion to w (figure 13), limb IK (section 6.2),
+/// spatial order (section 6.3).
+LimbPosture AdaptLimb(const AdaptState& state, Limb limb, const LimbTargets& targets, double w,
+                      bool with_planes) {
+  const LimbChain& chain = state.chain[Index(limb)];
+  const LimbPosture& posture = state.limb[Index(limb)];
+  const LimbPlacement placed = Place(chain, posture);
+  const LimbPosture attracted =
+      BlendedIk(chain, posture, glm::mix(placed.mid, targets.mid, w),
+                glm::mix(placed.end, targets.end, w), state.gamma[Index(limb)]);
+  return with_planes ? EnsureSpatialOrder(state, limb, attracted, w) : attracted;
+}
+
+/// Both limbs of a pair from one state of the body, so that neither side is first.
+void AdaptPair(AdaptState& state, const std::array<Limb, 2>& pair, double w, bool with_planes) {
+  const std::array<LimbTargets, 2> targets = TargetsOfPair(state, pair[0]);
+  std::array<LimbPosture, 2> posture;
+  for (std::size_t k = 0; k < 2; ++k) {
+    posture[k] = AdaptLimb(state, pair[k], targets[k], w, with_planes);
+  }
+  for (std::size_t k = 0; k < 2; ++k) state.Apply(pair[k], posture[k]);
+}
+
+void AlignExtremities(AdaptState& state, const std::array<Limb, 2>& pair,
+                      const std::array<Quat, kLimbCount>& captured_ws) {
+  std::array<Quat, 2> aligned;
+  for (std::size_t k = 0; k < 2; ++k) {
+    aligned[k] = AlignExtremity(state, pair[k], captured_ws[Index(pair[k])]);
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    state.extremity_ws[Index(pair[k])] = aligned[k];
+    state.Apply(pair[k], state.limb[Index(pair[k])]);
+  }
+}
+
+/// One pass over all limbs, legs first: arms find them where they will be.
+void AdaptLimbs(AdaptState& state, double w, bool with_planes,
+                const std::array<Quat, kLimbCount>& captured_ws) {
+  if (!state.settings.solve_pairs) {
+    for (const Limb limb : kLimbs) {
+      state.Apply(limb, AdaptLimb(state, limb, TargetsOf(state, limb), w, with_planes));
+    }
+    return;
+  }
+  for (const auto& pair : {kLegs, kArms}) {
+    if (state.settings.hands_keep_direction) AlignExtremities(state, pair, captured_ws);
+    AdaptPair(state, pair, w, with_planes);
+    if (w == 1.0 && pair == kLegs) {
+      for (const Limb leg : kLegs) LockStance(state, leg);
+    }
+  }
+}
+
+void WritePose(AdaptState& state, Pose& out) {
+  for (const Limb limb : kLimbs) {
+    const LimbJoints joints = JointsOf(limb);
+    const LimbPosture& posture = state.limb[Index(limb)];
+    state.pose.rotation_ls[Index(joints.base)] = posture.base;
+    state.pose.rotation_ls[Index(joints.mid)] = posture.mid;
+    if (state.avatar.skeleton.locked[Index(joints.end)]) continue;
+    const Quat lower = Place(state.chain[Index(limb)], posture).mid_ws;
+    state.pose.rotation_ls[Index(joints.end)] =
+        glm::normalize(glm::conjugate(lower) * state.extremity_ws[Index(limb)]);
+  }
+  out = state.pose;
+}
+
+}  // namespace
+
+void Adapt(const Body& avatar, const EgocentricPose& egocentric, const AdaptSettings& settings,
+           Pose& out) {
+  AdaptState state(avatar, egocentric, settings);  // section 6.1: root and captured joint angles
+  const std::array<Quat, kLimbCount> captured_ws = state.extremity_ws;
+  SumBody(state);
+  InitializeArms(state);
+
+  for (int round = 0; round < settings.main_iterations; ++round) {     // main loop
+    for (int count = 1; count <= settings.limb_iterations; ++count) {  // limb loop
+      const double w = static_cast<double>(count) / settings.limb_iterations;
+      AdaptLimbs(state, w, true, captured_ws);
+    }
+    FoldBody(state);  // section 6.4
+  }
+  if (settings.restore_ends) AdaptLimbs(state, 1.0, false, captured_ws);
+  KeepArmsClear(state);
+  if (!settings.hands_keep_direction) {  // section 6.5
+    for (const Limb limb : kLimbs) {
+      state.extremity_ws[Index(limb)] =
+          AlignExtremity(state, limb, state.extremity_ws[Index(limb)]);
+    }
+  }
+  WritePose(state, out);
+}
+
+}  // namespace ego

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace ego {
+
+/// Choices of the posture adaptation. Lengths are for a height of 1.78 m and scale with the avatar;
+/// the defaults are those of "mdb".
+struct AdaptSettings {
+  /// Rounds of the main loop of Algorithm 1. More do not converge: planes, folding and relations
+  /// are no contraction together, and the motion gets rougher. 0: no limb is adapted.
+  int main_iterations = 1;
+  /// maxLCount. 1: interacting limbs do not share the way to each other. Above 3: rougher.
+  int limb_iterations = 3;
+  /// mu of figure 14, radii by which a plane is held back at first. Below 1: planes jerk early
+  /// iterations; above 4: more penetration.
+  double plane_retreat = 1.5;
+  /// Metres over which a violated plane takes hold. 0: kinks; larger: that much may stay violated.
+  double plane_ramp = 0.018;
+  /// Width of the blend between straight and bent, in chord deficit 1 - cos(flexion). 0: elbows
+  /// snap when the reach is exceeded; .02: a limb never gets quite straight.
+  double reach_softness = 0.006;
+  /// Metres added to the inverse importances of the arms in gamma (appendix C). 0: as published;
+  /// larger: gamma turns slower and ends between both solutions.
+  double gamma_softness = 0.020;
+  /// Whether wrists that relate to each other are solved together and limbs of a pair in one step.
+  /// Off: one limb after the other, as the text has it; left and right then differ.
+  bool solve_pairs = true;
+  /// Whether a limb's end is put back after its base joint turned for a plane, and one pass over
+  /// the positions without planes ends the adaptation. Off: planes pull hands off their contacts.
+  bool restore_ends = true;
+  /// Whether hands keep the performer's direction in the world before they are aligned with the
+  /// surface. Off: they follow the forearm.
+  bool hands_keep_direction = true;
+  /// Degrees of forward hip flexion where body folding begins and where it is fully allowed
+  /// (section 6.4). Lower: a walk nods. Higher: short arms never reach the knees.
+  double folding_begin = 15.0;
+  double folding_full = 65.0;
+  /// Whether the folding angle counts by the legs' share of the arms' importance. Off: as
+  /// published; far legs then bend the trunk as much as near ones.
+  bool folding_by_share = true;
+  /// Height of the sole, metres, below which a foot stands where the root's scale puts it. 0: off;
+  /// large: swinging feet are held too.
+  double stance_height = 0.020;
+  /// Steps of the last correction that keeps arms out of trunk and head and hands on their
+  /// contacts. 0: off. Each costs some microseconds near the body.
+  int clearance_steps = 3;
+  /// Metres to which clearance that the performer has is kept. Smaller: thick bodies are cut;
+  /// larger: arms are pushed where the performer passes close by.
+  double clearance_margin = 0.018;
+  /// Metres of the performer's own gap over which a hand's contact fades out. Smaller: contacts
+  /// begin suddenly; larger: hands that merely pass are pulled along.
+  double contact_fade = 0.030;
+
+  /// The closest reading of the text that is well defined.
+  static AdaptSettings Paper() {
+    AdaptSettings paper;
+    paper.main_iterations = 2;
+    paper.plane_ramp = 0.0;
+    paper.reach_softness = 0.0;
+    paper.gamma_softness = 0.0;
+    paper.solve_pairs = false;
+    paper.restore_ends = false;
+    paper.hands_keep_direction = false;
+    paper.folding_begin = 0.0;
+    paper.folding_full = 0.0;
+    paper.folding_by_share = false;
+    paper.stance_height = 0.0;
+    paper.clearance_steps = 0;
+    return paper;
+  }
+};
+
+}  // namespace ego

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "core/adapt/adapt_settings.h"
+#include "core/adapt/limb_ik.h"
+#include "core/egocentric/egocentric_pose.h"
+#include "core/egocentric/posed_body.h"
+
+namespace ego {
+
+/// Equation 2 over trunk and head: they stand still while the limbs are adapted, so their part of
+/// the sum is taken once.
+struct BodySum {
+  Vec3 position{0.0};       // sum of lambda-hat (x + v)
+  double importance = 0.0;  // sum of lambda-hat
+};
+
+/// An avatar's posture while it is adapted: what the steps of Algorithm 1 hand on. Lives for one
+/// call of `Adapt` and refers to its inputs.
+struct AdaptState {
+  AdaptState(const Body& avatar, const EgocentricPose& egocentric, const AdaptSettings& settings);
+
+  const Body& avatar;
+  const EgocentricPose& egocentric;
+  const AdaptSettings& settings;
+  const BodyConstants constants;
+  const double scale;  // height over 1.78 m, for the settings' lengths
+  Pose pose;
+  PosedBody posed;
+  std::array<LimbChain, kLimbCount> chain;
+  std::array<LimbPosture, kLimbCount> limb;
+  std::array<BodySum, kLimbPointCount> body_sum;
+  /// The same for equation 3: what trunk and head ask of the normals of hands and feet.
+  std::array<Vec3, kLimbCount> normal_sum{};
+  /// World rotations that hands and feet are to end with.
+  std::array<Quat, kLimbCount> extremity_ws;
+  std::array<double, kLimbCount> gamma{};
+
+  /// Chains and limb postures from `pose`, whose forward kinematics is in `posed`.
+  void ReadLimbs();
+  /// Takes a posture for a limb and places its joints, capsules, hand.
+  void Apply(Limb limb, const LimbPosture& posture);
+};
+
+}  // namespace ego

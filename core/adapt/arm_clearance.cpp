@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "core/adapt/arm_clearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/egocentric/clearance.h"
+#include "core/geometry/rotation.h"
+#include "core/geometry/small_solve.h"
+#include "core/geometry/smooth.h"
+
+namespace ego {
+namespace {
+
+constexpr double kContactWeight = 10.0;   // of a touching hand point, against 1 of an arm sample
+constexpr double kHandMoveDamping = 0.1;  // in the same unit
+constexpr double kHandTurnDamping = 0.4;  // likewise, about the length of a hand
+constexpr double kArmDamping = 0.15;      // likewise, about the length of an arm
+constexpr double kAnchorWeight = 10.0;    // of the wrist's place while the arm gives way
+constexpr double kArmStep = 0.15;         // radians a step can hardly exceed
+constexpr double kHandStep = 0.30;
+
+/// A wish of one sample: to move by `value` metres along `normal`.
+struct Row {
+  std::size_t sample = 0;
+  Vec3 normal{0.0};
+  double value = 0.0;
+  double weight = 0.0;
+};
+struct Rows {
+  std::array<Row, kClearanceSampleCount * kObstacleCount> row;
+  std::size_t count = 0;
+  void Add(const Row& wish) { row[count++] = wish; }
+};
+
+/// Signed distance of a sample to an obstacle in place and the way out. False where it is far.
+bool Measure(const AdaptState& state, const BodyObstacles& body, Limb arm, const ArmSample& sample,
+             const Clearance& performer, std::size_t obstacle, SignedDistance& out) {
+  if (obstacle < 2) {
+    if (!body.Distance(obstacle, sample, out)) return false;
+    out.gradient = NormalizedOr(out.gradient, Vec3{0.0});
+    return true;
+  }
+  const PosedCapsule& capsule = ObstacleCapsule(state.posed, arm, obstacle);
+  const Vec3 from_axis =
+      sample.center - capsule.At(ClosestOnSegment(sample.center, capsule.start, capsule.end));
+  // The performer's side of the obstacle decides where the avatar's lies deep inside.
+  const Vec3 side = capsule.frame * performer.direction_ls;
+  out.gradient = NormalizedOr(from_axis + 0.015 * state.scale * side, side);
+  out.distance = glm::dot(out.gradient, from_axis) - capsule.radius - sample.radius;
+  return true;
+}
+
+void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, Rows& rows) {
+  const double height = state.avatar.height;
+  const double margin = state.scale * state.settings.clearance_margin;
+  const double fade = state.scale * state.settings.contact_fade;
+  for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
+    const bool contact = s >= kFirstContactSample;
+    if (s > kFirstContactSample && !state.egocentric.form.hand_points) break;
+    const ArmSample sample = SampleOf(state.avatar, state.posed, arm, s);
+    for (std::size_t o = 0; o < kObstacleCount; ++o) {
+      const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
+      SignedDistance now;
+      if (!Measure(state, body, arm, sample, performer, o, now)) continue;
+      const double clearance = performer.distance * height;
+      const double need = !performer.known   ? margin
+                          : clearance <= 0.0 ? clearance
+                                             : margin * -std::expm1(-clearance / margin);
+      // Both arms move when one is in the other's way.
+      const bool other_arm = o == 2 || o == 3 || o == kObstacleCount - 1;
+      const double share = other_arm ? 0.5 : 1.0;
+      const double short_of = need - now.distance;
+      const double weight = Smoothstep(short_of / (0.02 * height));
+      const double touching = contact && performer.known ? 1.0 - Smoothstep(clearance / fade) : 0.0;
+      if (touching > 0.0) {
+        rows.Add({s, now.gradient, share * (clearance - now.distance), kContactWeight * touching});
+      }
+      if (weight > 0.0) rows.Add({s, now.gradient, share * short_of, weight});
+    }
+  }
+}
+
+struct ArmMove {
+  LimbPosture posture;
+  Quat hand_ws = kIdentity;
+};
+
+/// Move and turn of a hand about its wrist that its rows ask for.
+struct HandMove {
+  Vec3 move{0.0};
+  Vec3 turn{0.0};
+};
+HandMove MoveHand(const AdaptState& state, Limb arm, const Rows& rows) {
+  const bool can_turn = !state.avatar.skeleton.locked[Index(JointsOf(arm).end)];
+  const double length =
+      std::max(0.05 * state.scale, state.constants.bone_length[HandBone(FingertipPoint(arm))]);
+  const Vec3& wrist = state.posed.point[Index(EndPoint(arm))];
+  NormalEquations<6> equations;
+  for (std::size_t k = 0; k < 3; ++k) equations.Damp(k, kHandMoveDamping);
+  for (std::size_t k = 3; k < 6; ++k) equations.Damp(k, kHandTurnDamping * length * length);
+  for (std::size_t k = 0; k < rows.count; ++k) {
+    const Row& row = rows.row[k];
+    if (row.sample + 1 < kFirstContactSample) continue;  // the arm's own
+    const Vec3 arm_of = SampleOf(state.avatar, state.posed, arm, row.sample).center - wrist;
+    const Vec3 turn = can_turn ? glm::cross(arm_of, row.normal) : Vec3{0.0};
+    equations.Add({row.normal.x, row.normal.y, row.normal.z, turn.x, turn.y, turn.z}, row.value,
+                  row.weight);
+  }
+  const std::array<double, 6> x = equations.Solve();
+  Vec3 turn{x[3], x[4], x[5]};
+  turn /= std::sqrt(1.0 + glm::dot(turn, turn) / (kHandStep * kHandStep));
+  return {{x[0], x[1], x[2]}, turn};
+}
+
+ArmMove MoveArm(const AdaptState& state, Limb arm, const Rows& rows) {
+  const LimbChain& chain = state.chain[Index(arm)];
+  const LimbPosture& posture = state.limb[Index(arm)];
+  const LimbPlacement placed = Place(chain, posture);
+  const HandMove hand = MoveHand(state, arm, rows);
+
+  const Vec3 hinge = placed.base_ws * MeasureFlexion(chain, posture.mid).axis_ls;
+  const double reach = chain.Reach();
+  NormalEquations<4> equations;
+  for (std::size_t k = 0; k < 4; ++k) equations.Damp(k, kArmDamping * reach * reach + 1e-12);
+  const auto add = [&](const Vec3& point, bool beyond_elbow, const Vec3& normal, double value,
+                       double weight) {
+    const Vec3 turn = chain.base_locked ? Vec3{0.0} : glm::cross(point - chain.base_ws, normal);
+    const double flex = beyond_elbow && !chain.mid_locked
+                            ? glm::dot(hinge, glm::cross(point - placed.mid, normal))
+                            : 0.0;
+    equations.Add({turn.x, turn.y, turn.z, flex}, value, weight);
+  };
+  double anchor = 0.0;
+  for (std::size_t k = 0; k < rows.count; ++k) {
+    const Row& row = rows.row[k];
+    if (row.sample >= kFirstContactSample) {
+      anchor = std::max(anchor, row.weight);
+      continue;  // through the wrist
+    }
+    add(SampleOf(state.avatar, state.posed, arm, row.sample).center, row.sample >= 3, row.normal,
+        row.value, row.weight);
+  }
+  // The wrist stays, the more so the closer the hand is to a contact of its own.
+  const double gap = 1.0 / std::max(1e-9, state.egocentric.point[Index(EndPoint(arm))].priority);
+  const double near = 0.02 / 1.78 / (0.02 / 1.78 + gap);
+  const double weight = std::max(kAnchorWeight * near * near, anchor);
+  for (std::size_t k = 0; k < 3; ++k) {
+    Vec3 axis{0.0};
+    axis[static_cast<int>(k)] = 1.0;
+    add(placed.end, true, axis, hand.move[static_cast<int>(k)], weight);
+  }
+  const std::array<double, 4> x = equations.Solve();
+  double square = 0.0;
+  for (const double v : x) square += v * v;
+  const double shrink = 1.0 / std::sqrt(1.0 + square / (kArmStep * kArmStep));
+
+  ArmMove move;
+  move.posture = posture;
+  const Quat turn = FromRotationVector(shrink * Vec3{x[0], x[1], x[2]});
+  move.posture.base = glm::normalize(glm::conjugate(chain.frame_ws) * turn * placed.base_ws);
+  const Vec3 axis_ls = MeasureFlexion(chain, posture.mid).axis_ls;
+  move.posture.mid = glm::normalize(FromRotationVector(shrink * x[3] * axis_ls) * posture.mid);
+  move.hand_ws = glm::normalize(FromRotationVector(hand.turn) * state.extremity_ws[Index(arm)]);
+  return move;
+}
+
+}  // namespace
+
+void KeepArmsClear(AdaptState& state) {
+  if (!state.egocentric.form.clearance || state.settings.clearance_steps <= 0) return;
+  const BodyObstacles body(state.avatar, state.posed);
+  for (int step = 0; step < state.settings.clearance_steps; ++step) {
+    std::array<ArmMove, 2> move;
+    bool any = false;
+    for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
+      Rows rows;
+      CollectRows(state, body, arm, rows);
+      move[Index(arm)] = {state.limb[Index(arm)], state.extremity_ws[Index(arm)]};
+      if (rows.count == 0) continue;
+      move[Index(arm)] = MoveArm(state, arm, rows);
+      any = true;
+    }
+    if (!any) return;
+    for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
+      state.extremity_ws[Index(arm)] = move[Index(arm)].hand_ws;
+      state.Apply(arm, move[Index(arm)].posture);
+    }
+  }
+}
+
+}  // namespace ego

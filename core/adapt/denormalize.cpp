@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "core/adapt/denormalize.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/adapt/half_space.h"
+#include "core/geometry/rotation.h"
+
+namespace ego {
+namespace {
+
+double OwnThickness(const AdaptState& state, LimbPoint j) {
+  return state.egocentric.form.own_thickness ? state.constants.thickness[Index(j)] : 0.0;
+}
+
+/// R' inside + tau' gap: equation 5 reversed (see NormalizedDistance).
+double Reach(const AdaptState& state, const NormalizedDistance& distance, const KinematicPath& path,
+             double filled) {
+  return filled * distance.inside +
+         distance.gap * PathFactor(path, distance.cosine, state.constants.bone_length);
+}
+
+/// From the end joint to a point of the hand, as the hand will end.
+Vec3 HandOffset(const AdaptState& state, LimbPoint j) {
+  if (!IsHandPoint(j)) return Vec3{0.0};
+  return state.extremity_ws[Index(LimbOf(j))] *
+         state.constants.hand_point_offset[Index(j) - kLimbJointCount];
+}
+
+/// A wanted position that depends on the partner's end joint: constant + on_partner * partner.
+struct LinearTarget {
+  Vec3 constant{0.0};
+  double on_partner = 0.0;
+};
+
+/// Equation 2 of one point, with the partner's end joint left open.
+LinearTarget LinearTargetOf(const AdaptState& state, LimbPoint j) {
+  const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
+  const Limb limb = LimbOf(j);
+  const Limb partner = Mirror(limb);
+  LinearTarget target{state.body_sum[Index(j)].position, 0.0};
+  for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
+    const CapsuleRelation& relation = coordinates.capsule[slot];
+    if (relation.importance == 0.0) continue;
+    const LimbSegment other = OtherSegment(limb, slot);
+    const PosedCapsule& capsule = state.posed.capsule[Index(other)];
+    target.constant +=
+        relation.importance * DenormalizeCapsule(state, j, relation, capsule, StartJoint(other));
+    if (LimbOf(other) == partner && IsLower(other)) {
+      const double share = relation.importance * relation.axial;
+      target.on_partner += share;
+      target.constant -= share * capsule.end;
+    }
+  }
+  if (coordinates.hand.importance > 0.0) {
+    const PosedCapsule& hand = state.posed.hand[Index(partner)];
+    target.constant +=
+        coordinates.hand.importance *
+        (DenormalizeCapsule(state, j, coordinates.hand, hand, JointsOf(partner).end) - hand.start);
+    target.on_partner += coordinates.hand.importance;
+  }
+  if (coordinates.ground.importance > 0.0) {
+    target.constant += coordinates.ground.importance * DenormalizeGround(state, limb);
+  }
+  return target;
+}
+
+/// What the points of a limb's end ask of its end joint together.
+LinearTarget EndTarget(const AdaptState& state, Limb limb) {
+  if (!IsArm(limb) || !state.egocentric.form.hand_points) {
+    return LinearTargetOf(state, EndPoint(limb));
+  }
+  LinearTarget mean;
+  double sum = 0.0;
+  for (const LimbPoint j : {EndPoint(limb), PalmPoint(limb), FingertipPoint(limb)}) {
+    const double importance = state.egocentric.point[Index(j)].importance_max;
+    const double weight = importance * importance;
+    const LinearTarget target = LinearTargetOf(state, j);
+    mean.constant += weight * (target.constant - HandOffset(state, j));
+    mean.on_partner += weight * target.on_partner;
+    sum += weight;
+  }
+  mean.constant /= sum;
+  mean.on_partner /= sum;
+  return mean;
+}
+
+Vec3 PartnerEnd(const AdaptState& state, Limb limb) {
+  return state.posed.point[Index(EndPoint(Mirror(limb)))];
+}
+
+Vec3 Resolve(const LinearTarget& target, const Vec3& partner_end) {
+  return target.constant + target.on_partner * partner_end;
+}
+
+/// The nearest point that the limb's end can reach.
+Vec3 WithinReach(const LimbChain& chain, const Vec3& target) {
+  const Vec3 offset = target - chain.base_ws;
+  const double distance = glm::length(offset);
+  const double reach = chain.Reach();
+  return distance > reach ? chain.base_ws + offset * (reach / distance) : target;
+}
+
+}  // namespace
+
+Vec3 DenormalizeTriangle(const AdaptState& state, LimbPoint j, std::size_t t) {
+  const TriangleRelation& relation = state.egocentric.point[Index(j)].triangle[t];
+  const double reach =
+      Reach(state, relation.distance, PathBetween(ParentJoint(t), j), OwnThickness(state, j));
+  return AtBarycentric(state.posed.triangle[t], relation.barycentric) +
+         reach * (state.posed.pose.rotation_ws[0] * relation.direction_ls);
+}
+
+Vec3 DenormalizeCapsule(const AdaptState& state, LimbPoint j, const CapsuleRelation& relation,
+                        const PosedCapsule& capsule, HumanoidJoint parent) {
+  const double reach = Reach(state, relation.distance, PathBetween(parent, j),
+                             capsule.radius + OwnThickness(state, j));
+  return capsule.At(relation.axial) + reach * (capsule.frame * relation.direction_ls);
+}
+
+Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
+  const GroundRelation& relation = state.egocentric.point[Index(EndPoint(leg))].ground;
+  const double h_root = state.avatar.standing_root_height;
+  const Vec3& root = state.posed.pose.position_ws[0];
+  const Vec3 sole{root.x + h_root * relation.offset.x, h_root * relation.gap,
+                  root.z + h_root * relation.offset.y};
+  if (!state.egocentric.form.sole_contact) return sole;
+  const FootSurface& foot = state.avatar.surface.foot[IsLeft(leg) ? 0 : 1];
+  const Quat& rotation = state.extremity_ws[Index(leg)];
+  const Vec3& rest = state.constants.canonical[Index(JointsOf(leg).end)];
+  const Vec3 heel = rotation * (foot.heel_ms - rest);
+  const Vec3 ball = rotation * (foot.ball_ms - rest);
+  Vec3 offset = glm::mix(heel, ball, relation.on_ball);
+  offset.y = std::min(heel.y, ball.y);
+  return sole - offset;
+}
+
+void SumBody(AdaptState& state) {
+  const std::size_t points = state.egocentric.form.hand_points ? kLimbPointCount : kLimbJointCount;
+  for (std::size_t k = 0; k < points; ++k) {
+    const auto j = static_cast<LimbPoint>(k);
+    const PointCoordinates& coordinates = state.egocentric.point[k];
+    BodySum sum;
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
+      const double importance = coordinates.triangle[t].importance;
+      sum.position += importance * DenormalizeTriangle(state, j, t);
+      sum.importance += importance;
+    }
+    state.body_sum[k] = sum;
+  }
+  state.normal_sum = {};
+  const Quat& hips = state.posed.pose.rotation_ws[0];
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const Mat3 frame = TangentFrame(t, state.posed.triangle[t].normal, hips);
+    for (const Limb limb : kLimbs) {
+      const PointCoordinates& coordinates =
+          state.egocentric.point[Index(OrientingPoint(state.egocentric, limb))];
+      state.normal_sum[Index(limb)] += coordinates.triangle[t].importance *
+                                       (frame * state.egocentric.normal[Index(limb)].triangle[t]);
+    }
+  }
+}
+
+LimbTargets TargetsOf(const AdaptState& state, Limb limb) {
+  const Vec3 partner = PartnerEnd(state, limb);
+  return {Resolve(LinearTargetOf(state, MidPoint(limb)), partner),
+          Resolve(EndTarget(state, limb), partner)};
+}
+
+std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left) {
+  const std::array<Limb, 2> limb = {left, Mirror(left)};
+  std::array<LinearTarget, 2> open;
+  for (std::size_t k = 0; k < 2; ++k) open[k] = EndTarget(state, limb[k]);
+  // end_k = c_k + m_k end_other, both at once. The shares are below one by what trunk, head and
+  // ground have; the floor only matters for a point that touches nothing but its partner.
+  const double determinant = std::max(1e-3, 1.0 - open[0].on_partner * open[1].on_partner);
+  std::array<Vec3, 2> end;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const LinearTarget& own = open[k];
+    const LinearTarget& other = open[1 - k];
+    const double shortfall =
+        determinant - (1.0 - own.on_partner * other.on_partner);  // zero but for the floor
+    end[k] = (own.constant + own.on_partner * other.constant +
+              shortfall * state.posed.point[Index(EndPoint(limb[k]))]) /
+             determinant;
+  }
+  const std::array<Vec3, 2> reached = {WithinReach(state.chain[Index(limb[0])], end[0]),
+                                       WithinReach(state.chain[Index(limb[1])], end[1])};
+  std::array<LimbTargets, 2> targets;
+  for (std::size_t k = 0; k < 2; ++k) {
+    targets[k].end = Resolve(open[k], reached[1 - k]);
+    targets[k].mid = Resolve(LinearTargetOf(state, MidPoint(limb[k])), reached[1 - k]);
+  }
+  return targets;
+}
+
+LimbTargets InitialTargets(const AdaptState& state, Limb arm) {
+  const double height = state.avatar.height;
+  const auto target_of = [&](LimbPoint j) {
+    // The half-spaces of the legs' segments for the segment that ends in this point.
+    const auto segment = static_cast<LimbSegment>(2 * Index(arm) + (j == MidPoint(arm) ? 0 : 1));
+    const double radius = state.avatar.surface.limb_radius[Index(segment)];
+    std::array<HalfSpace, 4> legs;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const LimbSegment other = OtherSegment(arm, 2 + k);
+      legs[k] = MapPlane(state.egocentric.plane[Index(segment)][2 + k],
+                         state.posed.capsule[Index(other)], height);
+    }
+    const Vec3 hand = HandOffset(state, j);
+    const auto inside = [&](Vec3 p) {
+      p -= hand;
+      for (const HalfSpace& leg : legs) {
+        const double outside = radius - leg.Distance(p);
+        if (outside > 0.0) p += outside * leg.normal;
+      }
+      return p;
+    };
+    const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
+    Vec3 sum{0.0};
+    double importance = 0.0;
+    const auto add = [&](double lambda, const Vec3& p) {
+      sum += lambda * inside(p);
+      importance += lambda;
+    };
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
+      add(coordinates.triangle[t].importance, DenormalizeTriangle(state, j, t));
+    }
+    for (std::size_t slot = 2; slot < kOtherSegmentCount; ++slot) {  // 0, 1: the other arm
+      const LimbSegment other = OtherSegment(arm, slot);
+      add(coordinates.capsule[slot].importance,
+          DenormalizeCapsule(state, j, coordinates.capsule[slot], state.posed.capsule[Index(other)],
+                             StartJoint(other)));
+    }
+    return sum / importance;
+  };
+
+  LimbTargets targets;
+  targets.mid = target_of(MidPoint(arm));
+  if (!state.egocentric.form.hand_points) {
+    targets.end = target_of(EndPoint(arm));
+    return targets;
+  }
+  double sum = 0.0;
+  for (const LimbPoint j : {EndPoint(arm), PalmPoint(arm), FingertipPoint(arm)}) {
+    const double importance = state.egocentric.point[Index(j)].importance_max;
+    targets.end += importance * importance * target_of(j);
+    sum += importance * importance;
+  }
+  targets.end /= sum;
+  return targets;
+}
+
+}  // namespace ego

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/math.h"
+#include "core/skeleton/skeleton.h"
+
+namespace ego {
+
+/// A limb's two joints as they can turn: what does not change during the limb loop.
+struct LimbChain {
+  Vec3 base_ws{0.0};          // shoulder or hip
+  Quat frame_ws = kIdentity;  // of the base joint's parent
+  Vec3 upper_ls{0.0};         // base to mid, canonical pose
+  Vec3 lower_ls{0.0};         // mid to end, canonical pose
+  Vec3 hinge_ls{0.0};         // canonical flexion axis
+  bool base_locked = false;
+  bool mid_locked = false;
+  double captured_deficit = 0.0;  // 1 - cos(flexion) of the captured joint angles
+  double captured_flexion = 0.0;  // signed, radians
+  double reach_softness = 0.0;    // AdaptSettings
+
+  double Reach() const { return glm::length(upper_ls) + glm::length(lower_ls); }
+};
+
+/// Local rotations of the base and mid joints.
+struct LimbPosture {
+  Quat base = kIdentity;
+  Quat mid = kIdentity;
+};
+
+/// Where a posture puts the limb, world space.
+struct LimbPlacement {
+  Quat base_ws = kIdentity;
+  Quat mid_ws = kIdentity;
+  Vec3 mid{0.0};
+  Vec3 end{0.0};
+};
+LimbPlacement Place(const LimbChain& chain, const LimbPosture& posture);
+
+/// Chain of a limb of a skeleton whose parent joint is placed; `captured` are its joint angles
+/// before any adaptation.
+LimbChain MakeChain(const Skeleton& skeleton, Limb limb, const Vec3& base_ws, const Quat& frame_ws,
+                    const LimbPosture& captured, double reach_softness);
+
+/// Flexion of the mid joint, measured on the actual bones: captured elbows are no perfect hinges.
+/// The axis is the normal of both bones, drawn towards the canonical hinge where they are nearly
+/// straight; signed, so that an over-stretched knee is a small negative angle.
+struct Flexion {
+  Vec3 axis_ls{0.0};      // unit, at right angles to the upper bone, in the base joint's frame
+  double angle = 0.0;     // of the lower bone's part in the hinge plane
+  double in_plane = 1.0;  // length of that part, in [0, 1]
+};
+Flexion MeasureFlexion(const LimbChain& chain, const Quat& mid);
+
+/// Standard limb IK [34]: the end joint is brought to `end_target`, then the mid joint as near to
+/// `mid_target` as turning about the line from base to end allows, bounded by the flexion.
+/// Starts from `posture` and changes as little of it as needed; a target out of reach is pointed
+/// at. Singular cases: a target at the base joint keeps the direction; a mid target on the line
+/// from base to end keeps the swivel.
+LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
+                       const Vec3& end_target);
+
+/// The same without a mid target: the swivel is kept.
+LimbPosture ReachEnd(const LimbChain& chain, const LimbPosture& posture, const Vec3& end_target);
+
+/// Reversed priorities (figure 16): the mid joint is brought to the closest point to its target,
+/// then base twist and flexion bring the end as near to its own as they can, the twist bounded by
+/// the flexion. Singular cases: an end target at the mid joint keeps the flexion; one on the upper
+/// bone's line keeps the twist.
+LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
+                       const Vec3& end_target);
+
+/// Both, interpolated in joint-angle space: gamma 0 is the standard, 1 the reversed solution
+/// (appendix C).
+LimbPosture BlendedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
+                      const Vec3& end_target, double gamma);
+
+/// The twist that may be used of a wanted `angle` at a flexion: the least of |angle|, flexion and
+/// pi - |angle|, without a kink, signed. Zero for a straight limb and for a half turn, where the
+/// direction is undecided.
+double BoundTwist(double angle, double flexion);
+
+}  // namespace ego

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "core/base/math.h"
+#include "core/body/body_surface.h"
+#include "core/egocentric/kinematic_path.h"
+#include "core/egocentric/limb_point.h"
+
+namespace ego {
+
+/// How far a limb point is from a primitive, without a metre: with q the distance from the
+/// reference point (for a capsule: from its axis) and R what the surfaces themselves fill of it
+/// (the point's own thickness, the capsule's radius),
+///   inside = min(1, q / R),   gap = max(0, q - R) / tau.
+/// On another body the distance is R' inside + tau' gap (equation 5): contact stays contact
+/// whatever the thicknesses, and the point itself stays put where q passes through zero.
+struct NormalizedDistance {
+  double inside = 1.0;
+  double gap = 0.0;
+  PathCosines cosine{};  // C
+};
+
+/// One tuple of equation 6 against a triangle of trunk or head.
+struct TriangleRelation {
+  double importance = 0.0;  // lambda-hat
+  Vec3 barycentric{0.0};    // x-hat
+  Vec3 direction_ls{0.0};   // of v-hat, unit, in the frame of the hips
+  NormalizedDistance distance;
+};
+
+/// One tuple of equation 6 against a limb's capsule.
+struct CapsuleRelation {
+  double importance = 0.0;  // lambda-hat
+  double axial = 0.0;       // x-hat: along the axis, 0 at the start joint, 1 at the end
+  Vec3 direction_ls{0.0};   // x-hat's angle and v-hat's direction at once, in the bone frame
+  NormalizedDistance distance;
+};
+
+/// A foot against the ground (figure 6), in standing root heights.
+struct GroundRelation {
+  double importance = 0.0;  // lambda-hat
+  Vec2 offset{0.0};         // (x, z) of the sole's ground point from the root reference point g
+  double gap = 0.0;         // height of the sole
+  double on_ball = 0.5;     // 0: stands on the heel, 1: on the ball
+};
+
+/// Egocentric coordinates of one point: E_j of equation 6.
+struct PointCoordinates {
+  std::array<TriangleRelation, kTriangleCount> triangle;
+  std::array<CapsuleRelation, kOtherSegmentCount> capsule;
+  CapsuleRelation hand;   // points of an arm: the other hand as a capsule
+  GroundRelation ground;  // ankles
+  /// Sum and largest of the importances before normalisation, times the performer's height: these
+  /// compare different points (appendix C, body folding) where lambda-hat cannot.
+  double importance_sum = 0.0;
+  double importance_max = 0.0;
+  /// The largest importance with the saturation used for gamma of appendix C.
+  double priority = 0.0;
+};
+
+/// The surface normal of a hand or foot against every primitive (equation 3). The deviation beta_i
+/// is kept as the normal's components in the primitive's tangent frame (triangles), bone frame
+/// (capsules) and the world (ground): the same information, without the singularity that the
+/// smallest rotation between two normals has exactly where surfaces face each other.
+struct NormalCoordinates {
+  std::array<Vec3, kTriangleCount> triangle{};
+  std::array<Vec3, kOtherSegmentCount> capsule{};
+  Vec3 ground{0.0};
+};
+
+/// Plane of a segment against one segment of another limb (section 5.3): the tangent plane of that
+/// other capsule at its closest point.
+struct EgocentricPlane {
+  double axial = 0.0;   // closest point on the other segment
+  Vec3 normal_ls{0.0};  // unit, towards this segment, in the other segment's bone frame
+  double slack = 0.0;   // <= 0: how deep the performer's own segment lies, in heights
+};
+
+/// Samples of an arm that are kept out of the body (upper arm .5 .75 1, forearm .2 .4 .6 .8 1),
+/// then its points of contact: wrist, palm, fingertip.
+inline constexpr std::size_t kClearanceSampleCount = 11;
+inline constexpr std::size_t kFirstContactSample = 8;
+/// What they are kept clear of: trunk, head, the six capsules of the other limbs, the other hand.
+inline constexpr std::size_t kObstacleCount = 9;
+
+/// The performer's own clearance of one sample, in heights: positive is free. `known` is false
+/// where the obstacle was too far to matter.
+struct Clearance {
+  double distance = 0.0;
+  bool known = false;
+  Vec3 direction_ls{0.0};  // capsules: from the axis, in the obstacle's bone frame
+};
+
+/// Which readings of the representation were used; `Adapt` follows them.
+struct EgocentricForm {
+  bool hand_points = true;
+  bool own_thickness = true;
+  bool sole_contact = true;
+  bool legs_relate_to_arms = false;
+  bool clearance = true;
+};
+
+/// The egocentric representation of a posture (section 5). No metre in it: nothing of the
+/// performer's size is left.
+struct EgocentricPose {
+  EgocentricForm form;
+  std::array<Quat, kJointCount> rotation_ls{};          // 1) joint angles
+  std::array<Quat, kJointCount> rotation_ws{};          //    the same, accumulated: no body enters
+  Vec3 root{0.0};                                       // 2) (g-hat, h-hat_root) of equation 1
+  std::array<PointCoordinates, kLimbPointCount> point;  // 3)
+  std::array<NormalCoordinates, kLimbCount> normal;     //    palms of the arms, soles of the legs
+  std::array<std::array<EgocentricPlane, kOtherSegmentCount>, kSegmentCount> plane;  // 4)
+  using ArmClearance = std::array<std::array<Clearance, kObstacleCount>, kClearanceSampleCount>;
+  std::array<ArmClearance, 2> clearance;  //    remedy: arms kept out of the body
+};
+
+/// The point whose importances weigh a hand's or foot's normal: the palm where hands have points,
+/// else the end joint.
+inline LimbPoint OrientingPoint(const EgocentricPose& pose, Limb limb) {
+  return IsArm(limb) && pose.form.hand_points ? PalmPoint(limb) : EndPoint(limb);
+}
+
+}  // namespace ego

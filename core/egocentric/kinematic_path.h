@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/egocentric/limb_point.h"
+
+namespace ego {
+
+/// The bones that kinematic paths run along: bone k ends at joint k (and begins at its parent);
+/// after the joints' come the four from a wrist to a palm or fingertip, in the order of LimbPoint.
+inline constexpr std::size_t kBoneCount = kJointCount + 4;
+constexpr std::size_t HandBone(LimbPoint point) {
+  return kJointCount + Index(point) - kLimbJointCount;
+}
+
+/// Longest path: from a calf up the thigh and the trunk to the other end of the body, a fingertip.
+inline constexpr std::size_t kMaxPathLength = 10;
+
+/// The bones s_1 .. s_n between the joint that carries a reference point and a limb point (section
+/// 5.2). Each counts by the absolute cosine, so their signs along the path do not matter.
+struct KinematicPath {
+  std::array<std::uint8_t, kMaxPathLength> bone{};
+  std::uint8_t length = 0;
+};
+
+/// The path from joint `from` up to the common ancestor and down to `to`. The same on every body.
+const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to);
+
+/// Absolute cosines |cos alpha_i| of a path's bones to a displacement (equation 4).
+using PathCosines = std::array<float, kMaxPathLength>;
+
+/// Cosines of a unit `direction` to the bones. A bone without length has the cosine 0.
+/// `bone_direction` are unit vectors in the same space.
+inline PathCosines CosinesAlong(const KinematicPath& path, const Vec3& direction,
+                                const std::array<Vec3, kBoneCount>& bone_direction) {
+  PathCosines cosine{};
+  for (std::size_t i = 0; i < path.length; ++i) {
+    cosine[i] = static_cast<float>(std::abs(glm::dot(direction, bone_direction[path.bone[i]])));
+  }
+  return cosine;
+}
+
+/// tau = sum of |s_i| |cos alpha_i| (equation 5). Every cosine is raised by .01, so that tau stays
+/// above zero where all bones are at right angles to the displacement and the ratio of two bodies'
+/// tau is always a convex mean of their bones' ratios.
+inline double PathFactor(const KinematicPath& path, const PathCosines& cosine,
+                         const std::array<double, kBoneCount>& bone_length) {
+  double tau = 0.0;
+  for (std::size_t i = 0; i < path.length; ++i) {
+    tau += bone_length[path.bone[i]] * (0.01 + static_cast<double>(cosine[i]));
+  }
+  return tau;
+}
+
+}  // namespace ego

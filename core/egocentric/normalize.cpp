@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "core/egocentric/normalize.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/egocentric/clearance.h"
+#include "core/egocentric/importance.h"
+#include "core/egocentric/posed_body.h"
+#include "core/geometry/rotation.h"
+#include "core/geometry/smooth.h"
+
+namespace ego {
+namespace {
+
+/// One posture on its way: what the steps below share.
+struct Context {
+  const Body& body;
+  const NormalizeSettings& settings;
+  const BodyConstants& constants;
+  const PosedBody& posed;
+  double scale;  // height over 1.78 m: what the settings' lengths are multiplied by
+};
+
+/// Equations 4 and 5 for a displacement of length `reach` along the unit `direction`, of which
+/// `filled` lies inside the surfaces.
+NormalizedDistance NormalizeDistance(const Context& context, const KinematicPath& path,
+                                     const Vec3& direction, double reach, double filled) {
+  NormalizedDistance distance;
+  distance.inside = filled > 0.0 ? std::min(1.0, reach / filled) : 1.0;
+  distance.cosine = CosinesAlong(path, direction, context.posed.bone_direction);
+  const double tau = PathFactor(path, distance.cosine, context.constants.bone_length);
+  distance.gap = std::max(0.0, reach - filled) / std::max(tau, 1e-9 * context.body.height);
+  return distance;
+}
+
+/// Importances before normalisation are collected here: sum, largest, and the one for gamma.
+struct Importance {
+  double epsilon;
+  double gamma_epsilon;
+  double sum = 0.0;
+  double max = 0.0;
+  double priority = 0.0;
+
+  double Of(double gap, double orthogonality) {
+    const double importance = Proximity(gap, epsilon) * orthogonality;
+    sum += importance;
+    max = std::max(max, importance);
+    priority = std::max(priority, Proximity(gap, gamma_epsilon) * orthogonality);
+    return importance;
+  }
+};
+
+TriangleRelation RelateToTriangle(const Context& context, std::size_t t, LimbPoint j,
+                                  Importance& importance) {
+  const Triangle& triangle = context.posed.triangle[t];
+  const Vec3& p = context.posed.point[Index(j)];
+  const double filled =
+      context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
+  TriangleRelation relation;
+  relation.barycentric = ClosestOnTriangle(triangle, p);
+  const Vec3 v = p - AtBarycentric(triangle, relation.barycentric);
+  const double reach = glm::length(v);
+  const Vec3 direction = reach > 1e-12 ? v / reach : triangle.normal;
+  relation.direction_ls = glm::conjugate(context.posed.pose.rotation_ws[0]) * direction;
+  relation.distance =
+      NormalizeDistance(context, PathBetween(ParentJoint(t), j), direction, reach, filled);
+  relation.importance = importance.Of(
+      reach - filled, Orthogonality(glm::dot(v, triangle.normal), reach,
+                                    context.scale * context.settings.orthogonality_softness,
+                                    context.settings.orthogonality_floor));
+  return relation;
+}
+
+CapsuleRelation RelateToCapsule(const Context& context, const PosedCapsule& capsule,
+                                HumanoidJoint parent, LimbPoint j, Importance& importance) {
+  const Vec3& p = context.posed.point[Index(j)];
+  const double own =
+      context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
+  CapsuleRelation relation;
+  relation.axial = ClosestOnSegment(p, capsule.start, capsule.end);
+  const Vec3 v = p - capsule.At(relation.axial);
+  const double reach = glm::length(v);
+  const Vec3 direction = reach > 1e-12 ? v / reach : capsule.frame[1];
+  relation.direction_ls = glm::transpose(capsule.frame) * direction;
+  relation.distance =
+      NormalizeDistance(context, PathBetween(parent, j), direction, reach, capsule.radius + own);
+  // The displacement from a capsule is always along its normal.
+  relation.importance = importance.Of(reach - capsule.radius - own, 1.0);
+  return relation;
+}
+
+/// Height of the foot's lowest point over its ankle (negative), and which end it stands on.
+GroundRelation RelateToGround(const Context& context, LimbPoint j, Importance& importance) {
+  const std::size_t side = IsLeft(LimbOf(j)) ? 0 : 1;
+  const double h_root = context.body.standing_root_height;
+  const Vec3& ankle = context.posed.point[Index(j)];
+  const Vec3& root = context.posed.pose.position_ws[0];
+  GroundRelation relation;
+  Vec3 sole = ankle;
+  if (context.settings.form.sole_contact) {
+    const FootSurface& foot = context.body.surface.foot[side];
+    const Quat& rotation = context.posed.pose.Rotation(JointOf(j));
+    const Vec3& rest = context.constants.canonical[Index(JointOf(j))];
+    const Vec3 heel = ankle + rotation * (foot.heel_ms - rest);
+    const Vec3 ball = ankle + rotation * (foot.ball_ms - rest);
+    relation.on_ball = Smoothstep(0.5 + (heel.y - ball.y) / (0.08 * context.body.height));
+    sole = glm::mix(heel, ball, relation.on_ball);
+    sole.y = std::min(heel.y, ball.y);
+  }
+  relation.offset = Vec2{sole.x - root.x, sole.z - root.z} / h_root;
+  relation.gap = sole.y / h_root;
+  relation.importance = importance.Of(std::abs(sole.y), 1.0);
+  return relation;
+}
+
+void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) {
+  const NormalizeSettings& settings = context.settings;
+  const Limb limb = LimbOf(j);
+  Importance importance{context.scale * (IsArm(limb) ? settings.arm_epsilon : settings.leg_epsilon),
+                        context.scale * settings.gamma_epsilon};
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    out.triangle[t] = RelateToTriangle(context, t, j, importance);
+  }
+  for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
+    const LimbSegment other = OtherSegment(limb, slot);
+    if (!IsArm(limb) && IsArm(LimbOf(other)) && !settings.form.legs_relate_to_arms) {
+      out.capsule[slot] = {};
+      continue;
+    }
+    out.capsule[slot] = RelateToCapsule(context, context.posed.capsule[Index(other)],
+                                        StartJoint(other), j, importance);
+  }
+  out.hand = {};
+  if (IsArm(limb) && settings.form.hand_points) {
+    const Limb other = Mirror(limb);
+    out.hand = RelateToCapsule(context, context.posed.hand[Index(other)], JointsOf(other).end, j,
+                               importance);
+  }
+  out.ground = {};
+  if (!IsArm(limb) && j == EndPoint(limb)) out.ground = RelateToGround(context, j, importance);
+
+  // Normalised linearly so that they sum to one (section 5.1).
+  const double share = 1.0 / importance.sum;
+  for (TriangleRelation& relation : out.triangle) relation.importance *= share;
+  for (CapsuleRelation& relation : out.capsule) relation.importance *= share;
+  out.hand.importance *= share;
+  out.ground.importance *= share;
+  out.importance_sum = importance.sum * context.body.height;
+  out.importance_max = importance.max * context.body.height;
+  out.priority = importance.priority * context.body.height;
+}
+
+void NormalizeNormal(const Context& context, Limb limb, NormalCoordinates& out) {
+  const BodySurface& surface = context.body.surface;
+  const std::size_t side = IsLeft(limb) ? 0 : 1;
+  const Vec3& normal_ms =
+      IsArm(limb) ? surface.hand[side].palm_normal_ms : surface.foot[side].sole_normal_ms;
+  const Vec3 normal = context.posed.pose.Rotation(JointsOf(limb).end) * normal_ms;
+  const Quat& hips = context.posed.pose.rotation_ws[0];
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const Mat3 frame = TangentFrame(t, context.posed.triangle[t].normal, hips);
+    out.triangle[t] = glm::transpose(frame) * normal;
+  }
+  for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
+    const PosedCapsule& capsule = context.posed.capsule[Index(OtherSegment(limb, slot))];
+    out.capsule[slot] = glm::transpose(capsule.frame) * normal;
+  }
+  out.ground = normal;
+}
+
+/// Both planes of two segments (section 5.3); they share the closest pair.
+void NormalizePlanes(const Context& context, LimbSegment i, LimbSegment j, EgocentricPose& out) {
+  const PosedCapsule& a = context.posed.capsule[Index(i)];
+  const PosedCapsule& b = context.posed.capsule[Index(j)];
+  const SegmentPair pair = ClosestOnSegments(a.start, a.end, b.start, b.end);
+  const Vec3 from_b = a.At(pair.s) - b.At(pair.t);
+  const double distance = glm::length(from_b);
+  const Vec3 normal = distance > 1e-9
+                          ? from_b / distance
+                          : NormalizedOr(glm::cross(a.frame[0], b.frame[0]), b.frame[1]);
+  // Measured at the ends, where the half-space is enforced, so that the performer's own posture
+  // never violates it.
+  const auto slack = [&](const PosedCapsule& own, const Vec3& plane, const Vec3& n) {
+    const double ends = std::min(glm::dot(n, own.start - plane), glm::dot(n, own.end - plane));
+    return std::min(0.0, ends - a.radius - b.radius) / context.body.height;
+  };
+  out.plane[Index(i)][SlotOf(LimbOf(i), j)] = {pair.t, glm::transpose(b.frame) * normal,
+                                               slack(a, b.At(pair.t), normal)};
+  out.plane[Index(j)][SlotOf(LimbOf(j), i)] = {pair.s, glm::transpose(a.frame) * -normal,
+                                               slack(b, a.At(pair.s), -normal)};
+}
+
+}  // namespace
+
+NormalizeSettings NormalizeSettings::Paper() {
+  NormalizeSettings paper;
+  paper.form = {.hand_points = false,
+                .own_thickness = false,
+                .sole_contact = false,
+                .legs_relate_to_arms = true,
+                .clearance = false};
+  paper.arm_epsilon = 0.0005;
+  paper.leg_epsilon = 0.0005;
+  paper.gamma_epsilon = 0.0005;
+  paper.orthogonality_softness = 0.0;
+  return paper;
+}
+
+void Normalize(const Body& performer, const Pose& pose, const NormalizeSettings& settings,
+               EgocentricPose& out) {
+  const BodyConstants constants(performer);
+  PosedBody posed;
+  PlaceBody(performer, constants, pose, posed);
+  const Context context{performer, settings, constants, posed, performer.height / 1.78};
+
+  out.form = settings.form;
+  out.rotation_ls = pose.rotation_ls;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    if (performer.skeleton.locked[i]) out.rotation_ls[i] = kIdentity;
+  }
+  out.rotation_ws = posed.pose.rotation_ws;
+  out.root = pose.root_ws / performer.standing_root_height;
+
+  const std::size_t points = settings.form.hand_points ? kLimbPointCount : kLimbJointCount;
+  for (std::size_t j = 0; j < points; ++j) {
+    NormalizePoint(context, static_cast<LimbPoint>(j), out.point[j]);
+  }
+  for (const Limb limb : kLimbs) NormalizeNormal(context, limb, out.normal[Index(limb)]);
+  for (std::size_t i = 0; i < kSegmentCount; ++i) {
+    for (std::size_t j = 2 * (i / 2) + 2; j < kSegmentCount; ++j) {
+      NormalizePlanes(context, static_cast<LimbSegment>(i), static_cast<LimbSegment>(j), out);
+    }
+  }
+  if (settings.form.clearance) {
+    for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
+      MeasureClearance(performer, posed, arm, out.clearance[Index(arm)]);
+    }
+  }
+}
+
+}  // namespace ego

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "core/egocentric/posed_body.h"
+
+#include "core/geometry/rotation.h"
+
+namespace ego {
+namespace {
+
+using J = HumanoidJoint;
+
+Vec3 HandPointOffset(const Body& body, const std::array<Vec3, kJointCount>& canonical,
+                     LimbPoint point) {
+  const std::size_t side = IsLeft(LimbOf(point)) ? 0 : 1;
+  const HandSurface& hand = body.surface.hand[side];
+  const bool palm = point == LimbPoint::kLeftPalm || point == LimbPoint::kRightPalm;
+  return (palm ? hand.palm_ms : hand.fingertip_ms) - canonical[Index(JointOf(point))];
+}
+
+double Thickness(const Body& body, LimbPoint point) {
+  if (IsHandPoint(point)) return 0.0;
+  const std::size_t limb = Index(LimbOf(point));
+  const double upper = body.surface.limb_radius[2 * limb];
+  const double lower = body.surface.limb_radius[2 * limb + 1];
+  if (Index(point) % 2 == 0) return 0.5 * (upper + lower);
+  return limb < 2 ? body.surface.hand[limb].half_thickness : lower;
+}
+
+/// Whether a triangle looks up or down on the template, so that +Y says nothing about its plane.
+const std::array<bool, kTriangleCount>& LooksUpOrDown() {
+  static const std::array<bool, kTriangleCount> kAll = [] {
+    const Body body = TemplateBody();
+    std::array<bool, kTriangleCount> all{};
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
+      const SampleTriangle& s = SampleTriangles()[t];
+      const auto at = [&](std::size_t k) { return body.surface.sample_ms[Index(s[k])]; };
+      all[t] = std::abs(Triangle::Of(at(0), at(1), at(2)).normal.y) > 0.8;
+    }
+    return all;
+  }();
+  return kAll;
+}
+
+}  // namespace
+
+BodyConstants::BodyConstants(const Body& body) : canonical(CanonicalPositions(body.skeleton)) {
+  bone_length[0] = 0.0;
+  for (std::size_t j = 1; j < kJointCount; ++j) {
+    bone_length[j] = glm::length(body.skeleton.offset[j]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    hand_point_offset[k] =
+        HandPointOffset(body, canonical, static_cast<LimbPoint>(kLimbJointCount + k));
+    bone_length[kJointCount + k] = glm::length(hand_point_offset[k]);
+  }
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const auto segment = static_cast<LimbSegment>(s);
+    const Limb limb = LimbOf(segment);
+    const Vec3 axis =
+        NormalizedOr(body.skeleton.offset[Index(EndJoint(segment))], CanonicalDirection(limb));
+    const Vec3 rest = IsArm(limb) ? Vec3{0.0, 1.0, 0.0} : Vec3{0.0, 0.0, 1.0};
+    const Vec3 across = NormalizedOr(Perpendicular(rest, axis), Vec3{0.0, 0.0, 1.0});
+    segment_frame[s] = Mat3(axis, across, glm::cross(axis, across));
+  }
+  for (std::size_t p = 0; p < kLimbPointCount; ++p) {
+    thickness[p] = Thickness(body, static_cast<LimbPoint>(p));
+  }
+}
+
+void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed) {
+  std::array<Vec3, kSampleCount> sample;
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    const Attachment& a = body.surface.attachment[i];
+    Vec3 sum{0.0};
+    for (std::size_t k = 0; k < a.joint.size(); ++k) {
+      if (a.weight[k] == 0.0) continue;
+      sum += a.weight[k] *
+             PosePoint(constants.canonical, posed.pose, a.joint[k], body.surface.sample_ms[i]);
+    }
+    sample[i] = sum;
+  }
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const SampleTriangle& s = SampleTriangles()[t];
+    posed.triangle[t] = Triangle::Of(sample[Index(s[0])], sample[Index(s[1])], sample[Index(s[2])]);
+  }
+}
+
+void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, PosedBody& posed) {
+  const LimbJoints joints = JointsOf(limb);
+  for (std::size_t part = 0; part < 2; ++part) {
+    const auto segment = static_cast<LimbSegment>(2 * Index(limb) + part);
+    PosedCapsule& capsule = posed.capsule[Index(segment)];
+    capsule.start = posed.pose.Position(StartJoint(segment));
+    capsule.end = posed.pose.Position(EndJoint(segment));
+    capsule.radius = body.surface.limb_radius[Index(segment)];
+    capsule.frame = glm::mat3_cast(posed.pose.Rotation(StartJoint(segment))) *
+                    constants.segment_frame[Index(segment)];
+  }
+  posed.point[Index(MidPoint(limb))] = posed.pose.Position(joints.mid);
+  posed.point[Index(EndPoint(limb))] = posed.pose.Position(joints.end);
+  if (!IsArm(limb)) return;
+  const Quat& rotation = posed.pose.Rotation(joints.end);
+  for (const LimbPoint point : {PalmPoint(limb), FingertipPoint(limb)}) {
+    posed.point[Index(point)] =
+        posed.pose.Position(joints.end) +
+        rotation * constants.hand_point_offset[Index(point) - kLimbJointCount];
+  }
+  PosedCapsule& hand = posed.hand[Index(limb)];
+  hand.start = posed.pose.Position(joints.end);
+  hand.end = posed.point[Index(FingertipPoint(limb))];
+  hand.radius = body.surface.hand[Index(limb)].half_thickness;
+  hand.frame = glm::mat3_cast(rotation) * constants.segment_frame[2 * Index(limb) + 1];
+}
+
+void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
+               PosedBody& posed) {
+  posed.pose = ForwardKinematics(body.skeleton, pose);
+  PlaceTriangles(body, constants, posed);
+  for (const Limb limb : kLimbs) PlaceLimb(body, constants, limb, posed);
+  posed.bone_direction[0] = Vec3{0.0};
+  for (std::size_t j = 1; j < kJointCount; ++j) {
+    posed.bone_direction[j] = NormalizedOr(
+        posed.pose.position_ws[j] - posed.pose.position_ws[Index(kParent[j])], Vec3{0.0});
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto point = static_cast<LimbPoint>(kLimbJointCount + k);
+    posed.bone_direction[kJointCount + k] =
+        NormalizedOr(posed.point[Index(point)] - posed.pose.Position(JointOf(point)), Vec3{0.0});
+  }
+}
+
+Mat3 TangentFrame(std::size_t triangle, const Vec3& normal, const Quat& hips) {
+  const Vec3 y = hips * Vec3{0.0, 1.0, 0.0};
+  const Vec3 z = hips * Vec3{0.0, 0.0, 1.0};
+  const bool vertical = LooksUpOrDown()[triangle];
+  const Vec3 other = vertical ? y : z;
+  const Vec3 along = NormalizedOr(Perpendicular(vertical ? z : y, normal),
+                                  NormalizedOr(Perpendicular(other, normal), other));
+  return Mat3(normal, along, glm::cross(normal, along));
+}
+
+}  // namespace ego

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "core/body/body.h"
+#include "core/egocentric/kinematic_path.h"
+#include "core/egocentric/limb_point.h"
+#include "core/geometry/closest_point.h"
+#include "core/skeleton/pose.h"
+
+namespace ego {
+
+/// A body's own constants: what follows from its skeleton and surface alone, made once per frame.
+struct BodyConstants {
+  explicit BodyConstants(const Body& body);
+
+  std::array<Vec3, kJointCount> canonical;     // joint positions, canonical pose
+  std::array<double, kBoneCount> bone_length;  // metres
+  /// Bone frames of the limb segments in the canonical pose: columns axis, across, third. `across`
+  /// is the part of +Y (arms) or +Z (legs) at right angles to the axis, so that the frames of
+  /// partners are mirror images.
+  std::array<Mat3, kSegmentCount> segment_frame;
+  std::array<Vec3, 4> hand_point_offset;          // wrist to palm or fingertip, canonical pose
+  std::array<double, kLimbPointCount> thickness;  // a limb point's own distance to the skin, metres
+};
+
+/// A capsule in place.
+struct PosedCapsule {
+  Vec3 start{0.0};
+  Vec3 end{0.0};
+  double radius = 0.0;
+  Mat3 frame{1.0};  // bone frame: axis, across, third
+  Vec3 At(double t) const { return start + t * (end - start); }
+};
+
+/// A posed body with everything that the egocentric coordinates refer to, world space.
+struct PosedBody {
+  ModelPose pose;
+  std::array<Triangle, kTriangleCount> triangle;
+  std::array<PosedCapsule, kSegmentCount> capsule;
+  /// The hands as capsules from wrist to fingertip (palm and fingertip of one hand refer to the
+  /// other's).
+  std::array<PosedCapsule, 2> hand;
+  std::array<Vec3, kBoneCount> bone_direction;  // unit; zero for a bone without length
+  std::array<Vec3, kLimbPointCount> point;
+};
+
+/// Everything in place.
+void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
+               PosedBody& posed);
+
+/// The triangles again, from joints already in `posed.pose`.
+void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed);
+
+/// The capsules, points and hand of one limb again, from joints already in `posed.pose`.
+void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, PosedBody& posed);
+
+/// The joint's transform that tangent frames of trunk and head triangles turn with, and the axis
+/// that a frame is laid along: the part of the hips' +Y (of +Z for faces that look up or down in
+/// the template) at right angles to the normal. Mirror images on mirrored triangles.
+Mat3 TangentFrame(std::size_t triangle, const Vec3& normal, const Quat& hips);
+
+}  // namespace ego

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "core/body/body.h"
+#include "core/skeleton/pose.h"
+
+namespace ego {
+
+/// A posed body seen by its surfaces alone, for measuring. Brute force and exact; not for the frame
+/// loop.
+struct MeasuredBody {
+  MeasuredBody(const Body& body, const Pose& pose);
+
+  const Body* body;
+  ModelPose pose;
+  std::array<Vec3, kJointCount> canonical;
+  std::array<Vec3, kSampleCount> sample_ws;
+
+  Vec3 Palm(std::size_t side) const;
+  Vec3 Fingertip(std::size_t side) const;
+  Vec3 Heel(std::size_t side) const;
+  Vec3 Ball(std::size_t side) const;
+  Vec3 ToeTip(std::size_t side) const;
+};
+
+/// Distance of a point to the trunk or head mesh, negative inside (by winding number), metres.
+double TrunkDistance(const MeasuredBody& body, const Vec3& p);
+double HeadDistance(const MeasuredBody& body, const Vec3& p);
+
+/// Least distance from a point of an arm to trunk, head, the capsules of the other limbs and the
+/// other hand, metres; negative inside.
+double SurfaceGap(const MeasuredBody& body, Limb arm, const Vec3& p);
+
+/// How deep the capsules of an arm sink into trunk or head, metres, zero if nowhere. The half of
+/// the upper arm at the shoulder belongs to the trunk and does not count.
+double ArmDepth(const MeasuredBody& body, Limb arm);
+
+}  // namespace ego

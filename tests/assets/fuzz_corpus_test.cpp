@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "assets/files/file_io.h"
+#include "assets/takes/bvh.h"
+#include "assets/takes/c3d.h"
+#include "assets/takes/trc.h"
+#include "tests/support/take_laws.h"
+
+namespace ego {
+namespace {
+
+/// Gives every file of a kept corpus to a reader; returns how many there were.
+std::size_t Replay(const std::string& corpus,
+                   const std::function<void(std::span<const std::uint8_t>)>& read) {
+  const auto folder = std::filesystem::path(EGO_SOURCE_DIR) / "tests" / "fuzz" / "corpus" / corpus;
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const Result<std::vector<std::uint8_t>> bytes = ReadFile(entry.path());
+    EXPECT_TRUE(bytes) << bytes.error();
+    read(*bytes);
+    ++count;
+  }
+  return count;
+}
+
+std::string_view Text(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfC3d) {
+  EXPECT_GE(Replay("c3d", [](auto bytes) { test::CheckTake(ParseC3d(bytes, "x.c3d"), "x.c3d"); }),
+            6u);
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfTrc) {
+  EXPECT_GE(
+      Replay("trc", [](auto bytes) { test::CheckTake(ParseTrc(Text(bytes), "x.trc"), "x.trc"); }),
+      4u);
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfBvh) {
+  EXPECT_GE(
+      Replay("bvh", [](auto bytes) { test::CheckMotion(ParseBvh(Text(bytes), "x.bvh"), "x.bvh"); }),
+      3u);
+}
+
+}  // namespace
+}  // namespace ego

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/bodies.h"
+
+#include <string>
+
+namespace ego::test {
+namespace {
+
+using J = HumanoidJoint;
+
+void ScaleLimb(Skeleton& skeleton, Limb limb, double length) {
+  const LimbJoints joints = JointsOf(limb);
+  const double now = BoneLength(skeleton, joints.mid) + BoneLength(skeleton, joints.end);
+  for (const J j : {joints.mid, joints.end}) skeleton.offset[Index(j)] *= length / now;
+}
+
+}  // namespace
+
+Body MakeBody(std::string_view name, const BodyShape& shape) {
+  Skeleton skeleton = TemplateSkeleton(shape.height);
+  const double leg_before =
+      BoneLength(skeleton, J::kLeftLowerLeg) + BoneLength(skeleton, J::kLeftFoot);
+  ScaleLimb(skeleton, Limb::kLeftArm, shape.arm_length);
+  ScaleLimb(skeleton, Limb::kRightArm, shape.arm_length);
+  ScaleLimb(skeleton, Limb::kLeftLeg, shape.leg_length);
+  ScaleLimb(skeleton, Limb::kRightLeg, shape.leg_length);
+  // Longer legs lift the hips; the trunk takes up the rest of the height.
+  const double lift = shape.leg_length - leg_before;
+  skeleton.offset[0].y += lift;
+  const double trunk = shape.height - skeleton.offset[0].y + lift;
+  const double factor = (trunk - lift) / trunk;
+  for (const J j : {J::kSpine, J::kChest, J::kUpperChest, J::kNeck, J::kHead}) {
+    skeleton.offset[Index(j)] *= factor;
+  }
+  Body body = BodyFromSkeleton(std::string(name), skeleton, shape.height);
+  body.surface.limb_radius = {shape.upper_arm_radius, shape.lower_arm_radius,
+                              shape.upper_arm_radius, shape.lower_arm_radius,
+                              shape.upper_leg_radius, shape.lower_leg_radius,
+                              shape.upper_leg_radius, shape.lower_leg_radius};
+  const auto bulge = [&](SamplePoint p, double share) {
+    body.surface.sample_ms[Index(p)].z += share * shape.belly;
+  };
+  bulge(SamplePoint::kNavel, 1.0);
+  bulge(SamplePoint::kLeftBellySide, 0.85);
+  bulge(SamplePoint::kRightBellySide, 0.85);
+  bulge(SamplePoint::kSternumBase, 0.6);
+  bulge(SamplePoint::kPubis, 0.25);
+  for (const auto& [side, sign] :
+       {std::pair{SamplePoint::kLeftWaistSide, 1.0}, std::pair{SamplePoint::kRightWaistSide, -1.0},
+        std::pair{SamplePoint::kLeftBellySide, 1.0},
+        std::pair{SamplePoint::kRightBellySide, -1.0}}) {
+    body.surface.sample_ms[Index(side)].x += sign * 0.3 * shape.belly;
+  }
+  const auto joints = CanonicalPositions(skeleton);
+  for (std::size_t s = 0; s < 2; ++s) {
+    HandSurface& hand = body.surface.hand[s];
+    const Vec3& wrist = joints[Index(s == 0 ? J::kLeftHand : J::kRightHand)];
+    hand.palm_ms = wrist + shape.hand_scale * (hand.palm_ms - wrist);
+    hand.fingertip_ms = wrist + shape.hand_scale * (hand.fingertip_ms - wrist);
+    hand.half_thickness *= shape.hand_scale;
+  }
+  return body;
+}
+
+Body Child() { return MakeBody("child", {1.20, 0.38, 0.48, 0.05, 0.04, 0.06, 0.05, 0.01, 1.05}); }
+Body Alien() { return MakeBody("alien", {1.52, 0.42, 0.66, 0.03, 0.02, 0.05, 0.02, 0.10, 1.2}); }
+Body Woman() { return MakeBody("woman", {1.68, 0.51, 0.80, 0.05, 0.04, 0.08, 0.04, -0.01, 0.95}); }
+Body BigBelly() {
+  return MakeBody("big belly", {1.70, 0.48, 0.76, 0.06, 0.05, 0.10, 0.06, 0.20, 1.0});
+}
+Body LongArms() {
+  return MakeBody("long arms", {1.80, 0.75, 0.86, 0.035, 0.03, 0.06, 0.04, -0.02, 1.1});
+}
+
+Body PoorRig() {
+  Skeleton skeleton = TemplateSkeleton(1.5);
+  const auto merge = [&](J joint, std::initializer_list<J> children) {
+    for (const J child : children) skeleton.offset[Index(child)] += skeleton.offset[Index(joint)];
+    skeleton.offset[Index(joint)] = Vec3{0.0};
+    skeleton.locked[Index(joint)] = true;
+  };
+  merge(J::kLeftShoulder, {J::kLeftUpperArm});
+  merge(J::kRightShoulder, {J::kRightUpperArm});
+  merge(J::kNeck, {J::kHead});
+  merge(J::kUpperChest, {J::kNeck, J::kLeftShoulder, J::kRightShoulder});
+  skeleton.offset[Index(J::kHead)] += skeleton.offset[Index(J::kNeck)];
+  skeleton.offset[Index(J::kNeck)] = Vec3{0.0};
+  for (const auto& [shoulder, arm] : {std::pair{J::kLeftShoulder, J::kLeftUpperArm},
+                                      std::pair{J::kRightShoulder, J::kRightUpperArm}}) {
+    skeleton.offset[Index(arm)] += skeleton.offset[Index(shoulder)];
+    skeleton.offset[Index(shoulder)] = Vec3{0.0};
+  }
+  for (const J j : {J::kLeftHand, J::kRightHand, J::kLeftToes, J::kRightToes}) {
+    skeleton.locked[Index(j)] = true;
+  }
+  for (const J j : {J::kLeftToes, J::kRightToes}) skeleton.offset[Index(j)] = Vec3{0.0};
+  return BodyFromSkeleton("poor rig", skeleton, 1.5);
+}
+
+std::vector<Body> StudyBodies() { return {Woman(), Child(), Alien(), BigBelly(), LongArms()}; }
+
+}  // namespace ego::test
