@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "app/loading/load_avatar.h"
+
+#include <utility>
+
+#include "app/loading/file_kind.h"
+#include "assets/calibration/calibration_file.h"
+#include "assets/gltf/character_file.h"
+#include "assets/people/person.h"
+#include "core/model/avatar_body.h"
+
+namespace ego {
+namespace {
+
+// The part [from, to] of a longer piece of work.
+Progress Part(const Progress& whole, double from, double to) {
+  if (!whole) return {};
+  return [&whole, from, to](double fraction, std::string_view what) {
+    return whole(from + (to - from) * fraction, what);
+  };
+}
+
+}  // namespace
+
+Result<LoadedAvatar> LoadAvatar(const std::filesystem::path& path, const Progress& progress) {
+  const Result<FileKind> kind = KindOf(path);
+  if (!kind) return Error{kind.error()};
+  if (*kind != FileKind::kAvatar) {
+    return Error{path.string() + ": a take, where an avatar (.glb, .gltf or .vrm) is expected"};
+  }
+  Result<Character> character = ReadCharacter(path, Part(progress, 0.0, 0.4));
+  if (!character) return Error{character.error()};
+  const Result<LoadedCalibration> calibration =
+      LoadOrProposeCalibration(*character, Part(progress, 0.4, 1.0));
+  if (!calibration) return Error{calibration.error()};
+
+  LoadedAvatar avatar;
+  avatar.name = path.stem().string();
+  avatar.path = path;
+  avatar.body = std::make_shared<const Body>(MakeAvatarBody(*character, calibration->calibration));
+  avatar.calibration = Summarize(calibration->calibration);
+  avatar.calibrated_by_file = calibration->from_file;
+  avatar.notes = character->notes;
+  avatar.notes.insert(avatar.notes.end(), calibration->warnings.begin(),
+                      calibration->warnings.end());
+  avatar.character = std::make_shared<const Character>(*std::move(character));
+  return avatar;
+}
+
+std::vector<LoadedAvatar> LoadDemoCast(std::size_t count) {
+  std::vector<LoadedAvatar> cast;
+  const std::vector<PersonParameters> people = DemoCast();
+  for (std::size_t i = 1; i < people.size() && cast.size() < count; ++i) {
+    Person person = MakePerson(people[i]);
+    LoadedAvatar avatar;
+    avatar.name = people[i].name;
+    avatar.body = std::make_shared<const Body>(std::move(person.body));
+    avatar.character = std::make_shared<const Character>(std::move(person.character));
+    cast.push_back(std::move(avatar));
+  }
+  return cast;
+}
+
+}  // namespace ego
