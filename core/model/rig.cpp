@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/rig.h"
 
+#include <limits>
+
 #include "core/base/check.h"
 
 namespace ego {
+namespace {
+
+/// The mapped joint nearest to a point of the rest pose; of joints in one place the last, so that
+/// a foot's helper follows the foot and not the shin that ends there.
+HumanoidJoint NearestJoint(const HumanoidMap& map, const Alignment& alignment, const Vec3& point) {
+  HumanoidJoint nearest = HumanoidJoint::kHips;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    if (map.joint[j].node < 0) continue;
+    const double distance = glm::length(alignment.rest_position[j] - point);
+    if (distance <= best) {
+      best = distance;
+      nearest = static_cast<HumanoidJoint>(j);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
 
 void PoseNodes(const Rig& rig, const ModelPose& pose, std::span<Mat4> node_global) {
   EGO_CHECK(node_global.size() == rig.driver.size());
@@ -16,6 +37,53 @@ void PoseNodes(const Rig& rig, const ModelPose& pose, std::span<Mat4> node_globa
   for (std::size_t n = 0; n < node_global.size(); ++n) {
     node_global[n] = motion[Index(rig.driver[n])] * rig.canonical_global[n];
   }
+}
+
+Rig BuildRig(const JointTree& tree, std::span<const Mat4> rest_global, const HumanoidMap& map,
+             const Alignment& alignment, const std::vector<bool>& deforms) {
+  const std::size_t count = tree.joints.size();
+  EGO_CHECK(rest_global.size() == count);
+  EGO_CHECK(deforms.empty() || deforms.size() == count);
+  Rig rig;
+  rig.skeleton = alignment.skeleton;
+  rig.metres_per_unit = alignment.metres_per_unit;
+  std::vector<int> mapped(count, -1);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    rig.node[j] = map.joint[j].node;
+    if (rig.node[j] >= 0) mapped[static_cast<std::size_t>(rig.node[j])] = static_cast<int>(j);
+  }
+  // Roots and the joints above the hips carry the whole body; a joint beside it that moves skin
+  // belongs where it stands.
+  std::vector<bool> above(count, false);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    if (rig.node[j] < 0) continue;
+    for (int n = tree.joints[static_cast<std::size_t>(rig.node[j])].parent; n >= 0;
+         n = tree.joints[static_cast<std::size_t>(n)].parent) {
+      above[static_cast<std::size_t>(n)] = true;
+    }
+  }
+  rig.driver.assign(count, HumanoidJoint::kHips);
+  std::vector<bool> settled(count, false);
+  rig.canonical_global.resize(count);
+  std::array<Mat4, kJointCount> canonical_from_rest;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    canonical_from_rest[j] = alignment.CanonicalFromRest(static_cast<HumanoidJoint>(j));
+  }
+  for (std::size_t n = 0; n < count; ++n) {
+    const int parent = tree.joints[n].parent;
+    if (mapped[n] >= 0) {
+      rig.driver[n] = static_cast<HumanoidJoint>(mapped[n]);
+      settled[n] = true;
+    } else if (parent >= 0 && settled[static_cast<std::size_t>(parent)]) {
+      rig.driver[n] = rig.driver[static_cast<std::size_t>(parent)];
+      settled[n] = true;
+    } else if (!above[n] && !deforms.empty() && deforms[n]) {
+      rig.driver[n] = NearestJoint(map, alignment, Vec3(rest_global[n][3]));
+      settled[n] = true;
+    }
+    rig.canonical_global[n] = canonical_from_rest[Index(rig.driver[n])] * rest_global[n];
+  }
+  return rig;
 }
 
 }  // namespace ego

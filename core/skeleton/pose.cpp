@@ -16,13 +16,12 @@ ModelPose ForwardKinematics(const Skeleton& skeleton, const Pose& pose) {
   return model;
 }
 
-Pose PoseFromWorldRotations(const std::array<Quat, kJointCount>& rotation_ws,
-                            const Vec3& root_ws) {
+Pose PoseFromWorldRotations(const std::array<Quat, kJointCount>& rotation_ws, const Vec3& root_ws) {
   Pose pose;
   pose.root_ws = root_ws;
   for (std::size_t i = 0; i < kJointCount; ++i) {
-    Quat local = i == 0 ? rotation_ws[0]
-                        : glm::conjugate(rotation_ws[Index(kParent[i])]) * rotation_ws[i];
+    Quat local =
+        i == 0 ? rotation_ws[0] : glm::conjugate(rotation_ws[Index(kParent[i])]) * rotation_ws[i];
     local = glm::normalize(local);
     pose.rotation_ls[i] = local.w < 0.0 ? -local : local;
   }
