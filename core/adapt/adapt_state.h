@@ -15,6 +15,7 @@ namespace ego {
 struct BodySum {
   Vec3 position{0.0};       // sum of lambda-hat (x + v)
   double importance = 0.0;  // sum of lambda-hat
+  Vec3 initial{0.0};        // as position, every component brought out of the legs (section 6.1)
 };
 
 /// An avatar's posture while it is adapted: what the steps of Algorithm 1 hand on. Lives for one

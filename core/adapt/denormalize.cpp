@@ -28,6 +28,38 @@ Vec3 HandOffset(const AdaptState& state, LimbPoint j) {
          state.constants.hand_point_offset[Index(j) - kLimbJointCount];
 }
 
+/// The half-spaces of the legs for an arm's point (section 6.1), deflated by the segment that ends
+/// in it; points of the hand are taken back to the wrist. Points of legs are left alone.
+class LegRegion {
+ public:
+  LegRegion(const AdaptState& state, LimbPoint j) : hand_(HandOffset(state, j)) {
+    const Limb arm = LimbOf(j);
+    if (!IsArm(arm)) return;
+    const auto segment = static_cast<LimbSegment>(2 * Index(arm) + (j == MidPoint(arm) ? 0 : 1));
+    for (; count_ < leg_.size(); ++count_) {
+      const std::size_t slot = 2 + count_;
+      leg_[count_] =
+          MapPlane(state.egocentric.plane[Index(segment)][slot],
+                   state.posed.capsule[Index(OtherSegment(arm, slot))], state.avatar.height);
+      leg_[count_].offset +=
+          state.avatar.surface.limb_radius[Index(segment)] + glm::dot(leg_[count_].normal, hand_);
+    }
+  }
+  /// The point, brought onto every boundary that it lies outside of.
+  Vec3 Inside(Vec3 p) const {
+    for (std::size_t k = 0; k < count_; ++k) {
+      const double distance = leg_[k].Distance(p);
+      if (distance < 0.0) p -= distance * leg_[k].normal;
+    }
+    return p;
+  }
+
+ private:
+  Vec3 hand_;
+  std::array<HalfSpace, 4> leg_;
+  std::size_t count_ = 0;
+};
+
 /// A wanted position that depends on the partner's end joint: constant + on_partner * partner.
 struct LinearTarget {
   Vec3 constant{0.0};
@@ -109,7 +141,7 @@ Vec3 DenormalizeTriangle(const AdaptState& state, LimbPoint j, std::size_t t) {
   const double reach =
       Reach(state, relation.distance, PathBetween(ParentJoint(t), j), OwnThickness(state, j));
   return AtBarycentric(state.posed.triangle[t], relation.barycentric) +
-         reach * (state.posed.pose.rotation_ws[0] * relation.direction_ls);
+         reach * (state.posed.hips * relation.direction_ls);
 }
 
 Vec3 DenormalizeCapsule(const AdaptState& state, LimbPoint j, const CapsuleRelation& relation,
@@ -141,18 +173,20 @@ void SumBody(AdaptState& state) {
   for (std::size_t k = 0; k < points; ++k) {
     const auto j = static_cast<LimbPoint>(k);
     const PointCoordinates& coordinates = state.egocentric.point[k];
+    const LegRegion region(state, j);
     BodySum sum;
     for (std::size_t t = 0; t < kTriangleCount; ++t) {
       const double importance = coordinates.triangle[t].importance;
-      sum.position += importance * DenormalizeTriangle(state, j, t);
+      const Vec3 p = DenormalizeTriangle(state, j, t);
+      sum.position += importance * p;
+      sum.initial += importance * region.Inside(p);
       sum.importance += importance;
     }
     state.body_sum[k] = sum;
   }
   state.normal_sum = {};
-  const Quat& hips = state.posed.pose.rotation_ws[0];
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    const Mat3 frame = TangentFrame(t, state.posed.triangle[t].normal, hips);
+    const Mat3& frame = state.posed.tangent[t];
     for (const Limb limb : kLimbs) {
       const PointCoordinates& coordinates =
           state.egocentric.point[Index(OrientingPoint(state.egocentric, limb))];
@@ -196,43 +230,20 @@ std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left) {
 }
 
 LimbTargets InitialTargets(const AdaptState& state, Limb arm) {
-  const double height = state.avatar.height;
   const auto target_of = [&](LimbPoint j) {
-    // The half-spaces of the legs' segments for the segment that ends in this point.
-    const auto segment = static_cast<LimbSegment>(2 * Index(arm) + (j == MidPoint(arm) ? 0 : 1));
-    const double radius = state.avatar.surface.limb_radius[Index(segment)];
-    std::array<HalfSpace, 4> legs;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const LimbSegment other = OtherSegment(arm, 2 + k);
-      legs[k] = MapPlane(state.egocentric.plane[Index(segment)][2 + k],
-                         state.posed.capsule[Index(other)], height);
-    }
-    const Vec3 hand = HandOffset(state, j);
-    const auto inside = [&](Vec3 p) {
-      p -= hand;
-      for (const HalfSpace& leg : legs) {
-        const double outside = radius - leg.Distance(p);
-        if (outside > 0.0) p += outside * leg.normal;
-      }
-      return p;
-    };
     const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
-    Vec3 sum{0.0};
-    double importance = 0.0;
-    const auto add = [&](double lambda, const Vec3& p) {
-      sum += lambda * inside(p);
-      importance += lambda;
-    };
-    for (std::size_t t = 0; t < kTriangleCount; ++t) {
-      add(coordinates.triangle[t].importance, DenormalizeTriangle(state, j, t));
-    }
+    const LegRegion region(state, j);
+    Vec3 sum = state.body_sum[Index(j)].initial;
+    double importance = state.body_sum[Index(j)].importance;
     for (std::size_t slot = 2; slot < kOtherSegmentCount; ++slot) {  // 0, 1: the other arm
       const LimbSegment other = OtherSegment(arm, slot);
-      add(coordinates.capsule[slot].importance,
-          DenormalizeCapsule(state, j, coordinates.capsule[slot], state.posed.capsule[Index(other)],
-                             StartJoint(other)));
+      const CapsuleRelation& relation = coordinates.capsule[slot];
+      sum += relation.importance *
+             region.Inside(DenormalizeCapsule(state, j, relation, state.posed.capsule[Index(other)],
+                                              StartJoint(other)));
+      importance += relation.importance;
     }
-    return sum / importance;
+    return sum / importance - HandOffset(state, j);
   };
 
   LimbTargets targets;

@@ -35,9 +35,12 @@ RelaxedPlane Relax(const HalfSpace& plane, const EgocentricPlane& reverse, const
   const double support = std::max(glm::dot(opposite, other.start), glm::dot(opposite, other.end));
   const HalfSpace projected{opposite, support + other.radius + slack * height};
 
+  const double distance = LeastDistance(plane, own);
+  const double distance_projected = LeastDistance(projected, own);
+  if (distance >= 0.0 && distance_projected >= 0.0) return {};
   const double to_cm = 100.0 * 1.78 / height;
-  const double safe = Safety(to_cm * LeastDistance(plane, own));
-  const double safe_projected = Safety(to_cm * LeastDistance(projected, own));
+  const double safe = Safety(to_cm * distance);
+  const double safe_projected = Safety(to_cm * distance_projected);
   const double sigma = safe / (safe + safe_projected);  // equation 3 of the appendix
 
   const Vec3 normal = glm::mix(projected.normal, plane.normal, sigma);

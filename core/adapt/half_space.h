@@ -23,6 +23,9 @@ HalfSpace MapPlane(const EgocentricPlane& plane, const PosedCapsule& other, doub
 /// segment's own plane `reverse` (ep'_{j|i}), by how well each is satisfied. Distances are weighed
 /// in centimetres at 1.78 m. Where both normals oppose each other the relaxed normal fades and
 /// `strength` goes to zero with it.
+///
+/// Where `own` satisfies both planes it satisfies every plane between them: strength is then zero
+/// and nothing more is computed.
 struct RelaxedPlane {
   HalfSpace half_space;
   double strength = 0.0;  // in [0, 1]

@@ -25,6 +25,8 @@ LimbPosture EnsureSpatialOrder(const AdaptState& state, Limb limb, const LimbPos
   LimbPosture ordered = posture;
   for (std::size_t part = 0; part < 2; ++part) {
     const auto segment = static_cast<LimbSegment>(2 * Index(limb) + part);
+    LimbPlacement placed = Place(chain, ordered);
+    PosedCapsule own = PlaceSegment(state, segment, placed);
     for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
       const LimbSegment other = OtherSegment(limb, slot);
       if (!IsArm(limb) && IsArm(LimbOf(other)) && !state.egocentric.form.legs_relate_to_arms) {
@@ -34,8 +36,6 @@ LimbPosture EnsureSpatialOrder(const AdaptState& state, Limb limb, const LimbPos
       const EgocentricPlane& reverse =
           state.egocentric.plane[Index(other)][SlotOf(LimbOf(other), segment)];
       const PosedCapsule& obstacle = state.posed.capsule[Index(other)];
-      const LimbPlacement placed = Place(chain, ordered);
-      const PosedCapsule own = PlaceSegment(state, segment, placed);
       const RelaxedPlane relaxed = Relax(MapPlane(plane, obstacle, state.avatar.height), reverse,
                                          own, obstacle, state.avatar.height, plane.slack);
       if (!(relaxed.strength > 0.0)) continue;
@@ -47,6 +47,8 @@ LimbPosture EnsureSpatialOrder(const AdaptState& state, Limb limb, const LimbPos
       } else {
         ordered = SatisfyLower(chain, ordered, active, ramp, relaxed.strength);
       }
+      placed = Place(chain, ordered);
+      own = PlaceSegment(state, segment, placed);
     }
   }
   return ordered;

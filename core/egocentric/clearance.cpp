@@ -7,7 +7,7 @@ namespace ego {
 namespace {
 
 constexpr double kSmoothing = 0.005;  // heights
-constexpr double kCull = 0.1;         // heights
+constexpr double kCull = 0.05;        // heights
 
 double Width(const Body& body, SamplePoint a, SamplePoint b) {
   return glm::distance(body.surface.sample_ms[Index(a)], body.surface.sample_ms[Index(b)]);

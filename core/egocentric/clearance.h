@@ -19,7 +19,7 @@ ArmSample SampleOf(const Body& body, const PosedBody& posed, Limb arm, std::size
 struct BodyObstacles {
   BodyObstacles(const Body& body, const PosedBody& posed);
   /// Signed distance of a sphere's skin to obstacle 0 (trunk) or 1 (head). False, and nothing
-  /// written, where it is farther than a tenth of the body's height.
+  /// written, where it is farther than a twentieth of the body's height.
   bool Distance(std::size_t obstacle, const ArmSample& sample, SignedDistance& out) const;
 
  private:

@@ -34,13 +34,11 @@ using PathCosines = std::array<float, kMaxPathLength>;
 
 /// Cosines of a unit `direction` to the bones. A bone without length has the cosine 0.
 /// `bone_direction` are unit vectors in the same space.
-inline PathCosines CosinesAlong(const KinematicPath& path, const Vec3& direction,
-                                const std::array<Vec3, kBoneCount>& bone_direction) {
-  PathCosines cosine{};
+inline void CosinesAlong(const KinematicPath& path, const Vec3& direction,
+                         const std::array<Vec3, kBoneCount>& bone_direction, PathCosines& cosine) {
   for (std::size_t i = 0; i < path.length; ++i) {
     cosine[i] = static_cast<float>(std::abs(glm::dot(direction, bone_direction[path.bone[i]])));
   }
-  return cosine;
 }
 
 /// tau = sum of |s_i| |cos alpha_i| (equation 5). Every cosine is raised by .01, so that tau stays

@@ -24,14 +24,12 @@ struct Context {
 
 /// Equations 4 and 5 for a displacement of length `reach` along the unit `direction`, of which
 /// `filled` lies inside the surfaces.
-NormalizedDistance NormalizeDistance(const Context& context, const KinematicPath& path,
-                                     const Vec3& direction, double reach, double filled) {
-  NormalizedDistance distance;
+void NormalizeDistance(const Context& context, const KinematicPath& path, const Vec3& direction,
+                       double reach, double filled, NormalizedDistance& distance) {
   distance.inside = filled > 0.0 ? std::min(1.0, reach / filled) : 1.0;
-  distance.cosine = CosinesAlong(path, direction, context.posed.bone_direction);
+  CosinesAlong(path, direction, context.posed.bone_direction, distance.cosine);
   const double tau = PathFactor(path, distance.cosine, context.constants.bone_length);
   distance.gap = std::max(0.0, reach - filled) / std::max(tau, 1e-9 * context.body.height);
-  return distance;
 }
 
 /// Importances before normalisation are collected here: sum, largest, and the one for gamma.
@@ -51,43 +49,39 @@ struct Importance {
   }
 };
 
-TriangleRelation RelateToTriangle(const Context& context, std::size_t t, LimbPoint j,
-                                  Importance& importance) {
+void RelateToTriangle(const Context& context, std::size_t t, LimbPoint j, Importance& importance,
+                      TriangleRelation& relation) {
   const Triangle& triangle = context.posed.triangle[t];
   const Vec3& p = context.posed.point[Index(j)];
   const double filled =
       context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
-  TriangleRelation relation;
   relation.barycentric = ClosestOnTriangle(triangle, p);
   const Vec3 v = p - AtBarycentric(triangle, relation.barycentric);
   const double reach = glm::length(v);
   const Vec3 direction = reach > 1e-12 ? v / reach : triangle.normal;
-  relation.direction_ls = glm::conjugate(context.posed.pose.rotation_ws[0]) * direction;
-  relation.distance =
-      NormalizeDistance(context, PathBetween(ParentJoint(t), j), direction, reach, filled);
+  relation.direction_ls = direction * context.posed.hips;
+  NormalizeDistance(context, PathBetween(ParentJoint(t), j), direction, reach, filled,
+                    relation.distance);
   relation.importance = importance.Of(
       reach - filled, Orthogonality(glm::dot(v, triangle.normal), reach,
                                     context.scale * context.settings.orthogonality_softness,
                                     context.settings.orthogonality_floor));
-  return relation;
 }
 
-CapsuleRelation RelateToCapsule(const Context& context, const PosedCapsule& capsule,
-                                HumanoidJoint parent, LimbPoint j, Importance& importance) {
+void RelateToCapsule(const Context& context, const PosedCapsule& capsule, HumanoidJoint parent,
+                     LimbPoint j, Importance& importance, CapsuleRelation& relation) {
   const Vec3& p = context.posed.point[Index(j)];
   const double own =
       context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
-  CapsuleRelation relation;
   relation.axial = ClosestOnSegment(p, capsule.start, capsule.end);
   const Vec3 v = p - capsule.At(relation.axial);
   const double reach = glm::length(v);
   const Vec3 direction = reach > 1e-12 ? v / reach : capsule.frame[1];
   relation.direction_ls = glm::transpose(capsule.frame) * direction;
-  relation.distance =
-      NormalizeDistance(context, PathBetween(parent, j), direction, reach, capsule.radius + own);
+  NormalizeDistance(context, PathBetween(parent, j), direction, reach, capsule.radius + own,
+                    relation.distance);
   // The displacement from a capsule is always along its normal.
   relation.importance = importance.Of(reach - capsule.radius - own, 1.0);
-  return relation;
 }
 
 /// Height of the foot's lowest point over its ankle (negative), and which end it stands on.
@@ -120,7 +114,7 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) 
   Importance importance{context.scale * (IsArm(limb) ? settings.arm_epsilon : settings.leg_epsilon),
                         context.scale * settings.gamma_epsilon};
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    out.triangle[t] = RelateToTriangle(context, t, j, importance);
+    RelateToTriangle(context, t, j, importance, out.triangle[t]);
   }
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const LimbSegment other = OtherSegment(limb, slot);
@@ -128,14 +122,14 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) 
       out.capsule[slot] = {};
       continue;
     }
-    out.capsule[slot] = RelateToCapsule(context, context.posed.capsule[Index(other)],
-                                        StartJoint(other), j, importance);
+    RelateToCapsule(context, context.posed.capsule[Index(other)], StartJoint(other), j, importance,
+                    out.capsule[slot]);
   }
   out.hand = {};
   if (IsArm(limb) && settings.form.hand_points) {
     const Limb other = Mirror(limb);
-    out.hand = RelateToCapsule(context, context.posed.hand[Index(other)], JointsOf(other).end, j,
-                               importance);
+    RelateToCapsule(context, context.posed.hand[Index(other)], JointsOf(other).end, j, importance,
+                    out.hand);
   }
   out.ground = {};
   if (!IsArm(limb) && j == EndPoint(limb)) out.ground = RelateToGround(context, j, importance);
@@ -157,10 +151,8 @@ void NormalizeNormal(const Context& context, Limb limb, NormalCoordinates& out) 
   const Vec3& normal_ms =
       IsArm(limb) ? surface.hand[side].palm_normal_ms : surface.foot[side].sole_normal_ms;
   const Vec3 normal = context.posed.pose.Rotation(JointsOf(limb).end) * normal_ms;
-  const Quat& hips = context.posed.pose.rotation_ws[0];
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    const Mat3 frame = TangentFrame(t, context.posed.triangle[t].normal, hips);
-    out.triangle[t] = glm::transpose(frame) * normal;
+    out.triangle[t] = glm::transpose(context.posed.tangent[t]) * normal;
   }
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const PosedCapsule& capsule = context.posed.capsule[Index(OtherSegment(limb, slot))];

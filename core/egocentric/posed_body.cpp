@@ -40,6 +40,16 @@ const std::array<bool, kTriangleCount>& LooksUpOrDown() {
   return kAll;
 }
 
+Mat3 TangentFrame(bool vertical, const Vec3& normal, const Mat3& hips) {
+  const Vec3& along_first = vertical ? hips[2] : hips[1];
+  const Vec3& otherwise = vertical ? hips[1] : hips[2];
+  const Vec3 part = Perpendicular(along_first, normal);
+  const double length = glm::length(part);
+  const Vec3 along =
+      length > 1e-12 ? part / length : NormalizedOr(Perpendicular(otherwise, normal), otherwise);
+  return Mat3(normal, along, glm::cross(normal, along));
+}
+
 }  // namespace
 
 BodyConstants::BodyConstants(const Body& body) : canonical(CanonicalPositions(body.skeleton)) {
@@ -78,9 +88,12 @@ void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody&
     }
     sample[i] = sum;
   }
+  posed.hips = glm::mat3_cast(posed.pose.rotation_ws[0]);
+  const std::array<bool, kTriangleCount>& vertical = LooksUpOrDown();
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
     const SampleTriangle& s = SampleTriangles()[t];
     posed.triangle[t] = Triangle::Of(sample[Index(s[0])], sample[Index(s[1])], sample[Index(s[2])]);
+    posed.tangent[t] = TangentFrame(vertical[t], posed.triangle[t].normal, posed.hips);
   }
 }
 
@@ -126,16 +139,6 @@ void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pos
     posed.bone_direction[kJointCount + k] =
         NormalizedOr(posed.point[Index(point)] - posed.pose.Position(JointOf(point)), Vec3{0.0});
   }
-}
-
-Mat3 TangentFrame(std::size_t triangle, const Vec3& normal, const Quat& hips) {
-  const Vec3 y = hips * Vec3{0.0, 1.0, 0.0};
-  const Vec3 z = hips * Vec3{0.0, 0.0, 1.0};
-  const bool vertical = LooksUpOrDown()[triangle];
-  const Vec3 other = vertical ? y : z;
-  const Vec3 along = NormalizedOr(Perpendicular(vertical ? z : y, normal),
-                                  NormalizedOr(Perpendicular(other, normal), other));
-  return Mat3(normal, along, glm::cross(normal, along));
 }
 
 }  // namespace ego

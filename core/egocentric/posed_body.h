@@ -37,7 +37,12 @@ struct PosedCapsule {
 /// A posed body with everything that the egocentric coordinates refer to, world space.
 struct PosedBody {
   ModelPose pose;
+  Mat3 hips{1.0};  // rotation of the root, the frame of displacements from trunk and head
   std::array<Triangle, kTriangleCount> triangle;
+  /// Tangent frames: columns normal, along, third. `along` is the part of the hips' +Y (of +Z for
+  /// faces that look up or down in the template) at right angles to the normal, so that the frames
+  /// of mirrored triangles are mirror images.
+  std::array<Mat3, kTriangleCount> tangent;
   std::array<PosedCapsule, kSegmentCount> capsule;
   /// The hands as capsules from wrist to fingertip (palm and fingertip of one hand refer to the
   /// other's).
@@ -50,15 +55,10 @@ struct PosedBody {
 void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
                PosedBody& posed);
 
-/// The triangles again, from joints already in `posed.pose`.
+/// The triangles and their frames again, from joints already in `posed.pose`.
 void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed);
 
 /// The capsules, points and hand of one limb again, from joints already in `posed.pose`.
 void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, PosedBody& posed);
-
-/// The joint's transform that tangent frames of trunk and head triangles turn with, and the axis
-/// that a frame is laid along: the part of the hips' +Y (of +Z for faces that look up or down in
-/// the template) at right angles to the normal. Mirror images on mirrored triangles.
-Mat3 TangentFrame(std::size_t triangle, const Vec3& normal, const Quat& hips);
 
 }  // namespace ego
