@@ -167,9 +167,15 @@ void ProposeFoot(ProposalDraft& draft, std::size_t side) {
   const bool has_toes = glm::distance(toes, ankle) > 0.1 * length;
   const double ball = has_toes ? std::clamp(toes.z, depth.At(0.6), depth.At(0.8)) : depth.At(0.72);
   put_under(foot.ball, ball);
-  const double tip_z = depth.high;
-  const auto tip = draft.probe.Nearest(
-      region, {middle_at(tip_z, 0.1 * length), height.low + 0.04 * length, tip_z});
+  Vec3 foremost{0.0, 0.0, -1e300};
+  for (const auto& face : faces) {
+    for (const Vec3& p : face.corner_ms) {
+      if (p.y <= ankle.y && p.z > foremost.z) foremost = p;
+    }
+  }
+  if (foremost.z < depth.high) foremost = {ankle.x, height.low, depth.high};
+  const auto tip =
+      draft.probe.Nearest(region, {middle_at(depth.high, 0.1 * length), foremost.y, foremost.z});
   ProposalDraft::Put(foot.toe_tip, *tip, trust, reason);
 }
 

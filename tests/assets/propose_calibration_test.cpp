@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "assets/calibration/propose_calibration.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/model/avatar_body.h"
+#include "tests/support/capsule_person.h"
+
+namespace ego {
+namespace {
+
+using S = SamplePoint;
+
+AvatarCalibration Propose(const Character& character) {
+  const auto result = ProposeCalibration(character);
+  EXPECT_TRUE(result) << result.error();
+  return result ? *result : AvatarCalibration{};
+}
+
+std::vector<Character> People() {
+  return {test::MakeCapsulePerson(), test::MakeCapsulePerson({.belly = 0.2, .left_arm = 1.4}),
+          test::MakeCapsulePerson({.height = 1.1, .arm_radius = 0.07, .rigid = true})};
+}
+
+TEST(ProposeCalibration, EveryPointLiesOnTheSkinAndSaysWhyItIsDoubtful) {
+  for (const Character& person : People()) {
+    AvatarCalibration calibration = Propose(person);
+    EXPECT_EQ(calibration.mesh_hash, MeshHash(person));
+    for (const NamedPoint& named : AllPoints(calibration)) {
+      EXPECT_TRUE(IsOn(person, named.point->place)) << named.name;
+      EXPECT_NE(named.point->state, PickState::kMissing) << named.name;
+      EXPECT_NE(named.point->state, PickState::kPicked) << named.name;
+      EXPECT_GE(named.point->confidence, 0.0);
+      EXPECT_LE(named.point->confidence, 1.0);
+      EXPECT_EQ(named.point->state == PickState::kDoubtful && named.point->reason.empty(), false);
+    }
+  }
+}
+
+// What the construction of the capsule person makes exact.
+TEST(ProposeCalibration, FindsTheKnownExtremesOfAnEllipsoidHead) {
+  const Character person = test::MakeCapsulePerson();
+  const Body body = MakeAvatarBody(person, Propose(person));
+  const auto at = [&](S p) { return body.surface.sample_ms[Index(p)]; };
+  EXPECT_NEAR(at(S::kCrown).y, 1.78, 0.004);
+  EXPECT_NEAR(at(S::kNoseTip).z, 0.127, 0.003);
+  EXPECT_NEAR(at(S::kNoseTip).y, 1.645, 0.008);
+  EXPECT_NEAR(at(S::kBackOfHead).z, -0.09, 0.003);
+  EXPECT_NEAR(at(S::kLeftEar).x, 0.078, 0.003);
+  EXPECT_NEAR(at(S::kRightEar).x, -0.078, 0.003);
+  EXPECT_NEAR(body.height, 1.78, 0.004);
+}
+
+TEST(ProposeCalibration, MeasuresTheLimbsThatWereBuilt) {
+  const Character person = test::MakeCapsulePerson({.left_arm = 1.4});
+  const Body body = MakeAvatarBody(person, Propose(person));
+  const auto radius = [&](LimbSegment s) { return body.surface.limb_radius[Index(s)]; };
+  EXPECT_NEAR(radius(LimbSegment::kLeftUpperArm), 1.4 * 0.045, 0.001);
+  EXPECT_NEAR(radius(LimbSegment::kRightUpperArm), 0.045, 0.001);
+  EXPECT_NEAR(radius(LimbSegment::kLeftCalf), 0.065, 0.001);
+  EXPECT_NEAR(body.surface.hand[1].half_thickness, 0.016, 0.001);
+  EXPECT_NEAR(body.surface.hand[1].fingertip_ms.x, -0.91, 0.02);
+  EXPECT_LT(body.surface.foot[0].ball_ms.y, 0.01);
+  EXPECT_NEAR(body.surface.foot[0].toe_tip_ms.z, 0.21, 0.006);
+}
+
+TEST(ProposeCalibration, FollowsABigBelly) {
+  const Body thin = [] {
+    const Character c = test::MakeCapsulePerson();
+    return MakeAvatarBody(c, Propose(c));
+  }();
+  const Character fat = test::MakeCapsulePerson({.belly = 0.25});
+  const Body body = MakeAvatarBody(fat, Propose(fat));
+  const auto z = [](const Body& b, S p) { return b.surface.sample_ms[Index(p)].z; };
+  EXPECT_NEAR(z(body, S::kNavel) - z(thin, S::kNavel), 0.25, 0.01);
+  EXPECT_NEAR(z(body, S::kLowerBack), z(thin, S::kLowerBack), 0.005);
+  EXPECT_GT(z(body, S::kLeftBellySide), z(thin, S::kLeftBellySide) + 0.15);
+}
+
+TEST(ProposeCalibration, AMirroredCharacterGetsTheMirroredProposal) {
+  for (const Character& person : People()) {
+    const Body body = MakeAvatarBody(person, Propose(person));
+    const Character mirror_person = test::Mirrored(person);
+    const Body mirrored = MakeAvatarBody(mirror_person, Propose(mirror_person));
+    const auto flip = [](const Vec3& p) { return Vec3{-p.x, p.y, p.z}; };
+    for (std::size_t i = 0; i < kSampleCount; ++i) {
+      const auto p = static_cast<S>(i);
+      EXPECT_LT(glm::distance(body.surface.sample_ms[i],
+                              flip(mirrored.surface.sample_ms[Index(Mirror(p))])),
+                1e-5)
+          << Name(p);
+    }
+    for (std::size_t s = 0; s < kSegmentCount; ++s) {
+      EXPECT_NEAR(body.surface.limb_radius[s], mirrored.surface.limb_radius[s ^ 2u], 1e-5);
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      EXPECT_LT(glm::distance(body.surface.hand[side].palm_ms,
+                              flip(mirrored.surface.hand[1 - side].palm_ms)),
+                1e-5);
+      EXPECT_LT(glm::distance(body.surface.foot[side].heel_ms,
+                              flip(mirrored.surface.foot[1 - side].heel_ms)),
+                1e-5);
+    }
+  }
+}
+
+TEST(ProposeCalibration, AScaledCharacterGetsTheScaledProposal) {
+  for (const Character& person : People()) {
+    const Body body = MakeAvatarBody(person, Propose(person));
+    for (const double factor : {0.02, 3.0}) {
+      const Character scaled = test::Scaled(person, factor);
+      const Body other = MakeAvatarBody(scaled, Propose(scaled));
+      for (std::size_t i = 0; i < kSampleCount; ++i) {
+        EXPECT_LT(glm::distance(factor * body.surface.sample_ms[i], other.surface.sample_ms[i]),
+                  1e-4 * factor)
+            << Name(static_cast<S>(i));
+      }
+      EXPECT_NEAR(factor * body.surface.limb_radius[5], other.surface.limb_radius[5],
+                  1e-4 * factor);
+    }
+  }
+}
+
+TEST(ProposeCalibration, CrudeMeshesFaceOutward) {
+  for (const Character& person : People()) {
+    const Body body = MakeAvatarBody(person, Propose(person));
+    const Body usual = TemplateBodyOf(person);
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
+      const auto normal = [&](const Body& b) {
+        std::array<Vec3, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) {
+          p[k] = b.surface.sample_ms[Index(SampleTriangles()[t][k])];
+        }
+        return glm::cross(p[1] - p[0], p[2] - p[0]);
+      };
+      EXPECT_GT(glm::dot(normal(body), normal(usual)), 0.0) << person.name << " " << t;
+    }
+  }
+}
+
+TEST(ProposeCalibration, RefusesACharacterWithoutSkinAndStopsWhenAsked) {
+  Character empty = test::MakeCapsulePerson();
+  for (MeshPart& part : empty.parts) part.triangles.clear();
+  EXPECT_FALSE(ProposeCalibration(empty));
+  EXPECT_FALSE(ProposeCalibration(test::MakeCapsulePerson(),
+                                  [](double, std::string_view) { return false; }));
+}
+
+TEST(ProposeCalibration, APersonWithoutHeadOrHandsStillGetsABody) {
+  Character person = test::MakeCapsulePerson({.rigid = true});
+  std::erase_if(person.parts, [](const MeshPart& p) {
+    return p.name == "head" || p.name == "nose" || p.name == "hand" || p.name == "foot";
+  });
+  const AvatarCalibration calibration = Propose(person);
+  EXPECT_EQ(calibration.At(S::kNoseTip).state, PickState::kDoubtful);
+  EXPECT_EQ(calibration.hand[0].palm.state, PickState::kDoubtful);
+  const Body body = MakeAvatarBody(person, calibration);
+  for (const Vec3& p : body.surface.sample_ms) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
+}  // namespace
+}  // namespace ego
