@@ -25,7 +25,7 @@ struct PersonParameters {
   std::string name = "Performer";
   PersonStyle style = PersonStyle::kSoft;
 
-  double height = 1.78;            // ground to crown (of the head, without hair)
+  double height = 1.78;            // ground to crown, hair included
   double arm_length = 0.55;        // shoulder joint to wrist joint
   double upper_arm_share = 0.527;  // of the arm's length
   double leg_length = 0.84;        // hip joint to ankle joint
@@ -40,16 +40,17 @@ struct PersonParameters {
   double hip_joint_width = 0.19;  // between the hip joints
   double chest_width = 0.33;      // outer breadth of the rib cage
   double chest_depth = 0.235;
+  double bust = 0.0;  // how far the breasts stand out
   double waist_width = 0.29;
   double belly_thickness = 0.215;  // front to back at the navel
   double hips_width = 0.345;       // outer breadth of the pelvis
   double hips_depth = 0.235;
 
-  double neck_length = 0.07;  // from the neck joint to the height of the chin
-  double neck_radius = 0.056;
-  double head_height = 0.225;  // chin to crown
-  double head_width = 0.155;
-  double head_depth = 0.195;
+  double neck_length = 0.05;  // from the neck joint to the height of the chin
+  double neck_radius = 0.053;
+  double head_height = 0.24;  // chin to crown
+  double head_width = 0.165;
+  double head_depth = 0.205;
   double eye_size = 1.0;   // relative to the head
   double nose_size = 1.0;  // relative to the head
   double ear_size = 1.0;   // relative to the head
@@ -59,7 +60,7 @@ struct PersonParameters {
 
   Hair hair = Hair::kShort;
   double sleeve_end = 0.62;   // share of the upper arm that the sleeve covers; above 1: forearm
-  double trouser_end = 1.88;  // 1: down to the knee, 2: down to the ankle
+  double trouser_end = 1.94;  // 1: down to the knee, 2: down to the ankle
   // sRGB in [0, 1]
   glm::vec3 skin_color{0.80f, 0.58f, 0.45f};
   glm::vec3 shirt_color{0.914f, 0.635f, 0.231f};
@@ -80,7 +81,7 @@ struct Person {
 /// parameters give bit-equal results. Takes up to about a second.
 ///
 /// The mesh is closed; its parts (skin, shirt, ...) meet in vertices of equal position and weights.
-/// Nodes: a root, the 22 joints (VRM 1.0 names), fingers and toe tips; all world-aligned.
+/// Nodes: the 22 joints (VRM 1.0 names), fingertips and toe tips; all world-aligned.
 Person MakePerson(const PersonParameters& parameters);
 
 /// The cast of the demo, the performer first, then six avatars of different proportions: child,

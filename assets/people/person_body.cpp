@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "assets/people/person_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/check.h"
+
+namespace ego {
+namespace {
+
+using J = HumanoidJoint;
+using S = SamplePoint;
+
+struct Hit {
+  double t = 0.0;
+  std::size_t triangle = 0;
+  Vec3 barycentric{0.0};
+  bool leaves = false;
+};
+
+/// All crossings in front of the origin (Möller and Trumbore 1997), nearest first.
+std::vector<Hit> Crossings(const FigureSurface& surface, const Vec3& origin, const Vec3& d) {
+  // A ray through an edge hits both of its triangles rather than none; one of them is dropped.
+  constexpr double kEdge = 1e-9;
+  std::vector<Hit> hits;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto& t = surface.triangles[i];
+    const Vec3& a = surface.position_ms[t[0]];
+    const Vec3 e1 = surface.position_ms[t[1]] - a;
+    const Vec3 e2 = surface.position_ms[t[2]] - a;
+    const Vec3 q = glm::cross(d, e2);
+    const double det = glm::dot(e1, q);
+    if (std::abs(det) < 1e-18) continue;
+    const Vec3 s = origin - a;
+    const double u = glm::dot(s, q) / det;
+    if (u < -kEdge || u > 1.0 + kEdge) continue;
+    const Vec3 r = glm::cross(s, e1);
+    const double v = glm::dot(d, r) / det;
+    if (v < -kEdge || u + v > 1.0 + kEdge) continue;
+    const double along = glm::dot(e2, r) / det;
+    if (along > 0.0) hits.push_back({along, i, {1.0 - u - v, u, v}, det < 0.0});
+  }
+  std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });
+  const auto same = [](const Hit& a, const Hit& b) {
+    return std::abs(a.t - b.t) < 1e-9 && a.leaves == b.leaves;
+  };
+  hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
+  return hits;
+}
+
+Attachment Blend(const FigureSurface& surface, const Hit& hit) {
+  std::array<double, kJointCount> sum{};
+  for (int c = 0; c < 3; ++c) {
+    const Attachment& a =
+        surface.attachment[surface.triangles[hit.triangle][static_cast<std::size_t>(c)]];
+    for (std::size_t k = 0; k < a.joint.size(); ++k) {
+      sum[Index(a.joint[k])] += hit.barycentric[c] * a.weight[k];
+    }
+  }
+  Attachment blend;
+  double total = 0.0;
+  for (std::size_t k = 0; k < blend.joint.size(); ++k) {
+    const auto best = std::max_element(sum.begin(), sum.end());
+    blend.joint[k] = *best > 0.0 ? static_cast<J>(best - sum.begin()) : blend.joint[0];
+    blend.weight[k] = *best;
+    total += *best;
+    *best = 0.0;
+  }
+  for (double& w : blend.weight) w /= total;
+  return blend;
+}
+
+/// Mean distance from the bone to the skin around the middle of the segment.
+double MeasureRadius(const FigureSurface& surface, const Vec3& start, const Vec3& end) {
+  const Vec3 axis = glm::normalize(end - start);
+  const Vec3 u = glm::normalize(glm::cross(axis, std::abs(axis.y) > 0.5 ? Vec3{0, 0, 1} : kUp));
+  const Vec3 v = glm::cross(axis, u);
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i <= 6; ++i) {
+    const Vec3 origin = start + (0.2 + 0.1 * i) * (end - start);
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2.0 * kPi * (k + 0.5) / 12.0;
+      const Vec3 d = std::cos(angle) * u + std::sin(angle) * v;
+      sum += glm::distance(origin, PointAlong(surface, origin, d).position_ms);
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+}  // namespace
+
+SkinPoint PointAlong(const FigureSurface& surface, const Vec3& origin_ms, const Vec3& direction) {
+  // How many closed pieces the origin lies in.
+  const auto depth_at_origin = [](const std::vector<Hit>& crossings) {
+    int depth = 0;
+    for (const Hit& hit : crossings) depth += hit.leaves ? 1 : -1;
+    return depth;
+  };
+  std::vector<Hit> hits = Crossings(surface, origin_ms, direction);
+  int depth = depth_at_origin(hits);
+  if (depth < 1) {
+    // A ray through a vertex may slip between its triangles: a hair beside it none does.
+    hits = Crossings(surface, origin_ms + 1e-6 * Vec3{0.3, 0.5, 0.8}, direction);
+    depth = depth_at_origin(hits);
+  }
+  EGO_CHECK(!hits.empty());
+  const Hit* found = &hits.back();
+  for (const Hit& hit : hits) {
+    depth -= hit.leaves ? 1 : -1;
+    if (hit.leaves && depth <= 0) {
+      found = &hit;
+      break;
+    }
+  }
+  const auto& t = surface.triangles[found->triangle];
+  const Vec3& a = surface.position_ms[t[0]];
+  SkinPoint point;
+  point.position_ms = origin_ms + found->t * direction;
+  point.normal_ms =
+      glm::normalize(glm::cross(surface.position_ms[t[1]] - a, surface.position_ms[t[2]] - a));
+  point.attachment = Blend(surface, *found);
+  return point;
+}
+
+SampleRay RayOf(const PersonShape& shape, SamplePoint point) {
+  const S left = Mirror(point) < point ? Mirror(point) : point;
+  if (left != point) {
+    SampleRay ray = RayOf(shape, left);
+    ray.origin_ms.x = -ray.origin_ms.x;
+    ray.direction.x = -ray.direction.x;
+    return ray;
+  }
+  const PersonParameters& m = shape.parameters();
+  const double depth = -0.035 * shape.TrunkLength();
+  const Vec3 front{0.0, 0.0, 1.0};
+  const Vec3 back{0.0, 0.0, -1.0};
+  const Vec3 side{1.0, 0.0, 0.0};
+  const auto trunk = [&](double share, double x = 0.0) {
+    return Vec3{x, shape.HipHeight() + share * shape.TrunkLength(), depth};
+  };
+  const auto head = [&](double share) {
+    return Vec3{0.0, shape.ChinHeight() + share * m.head_height, shape.HeadDepth()};
+  };
+  const double w = m.head_width / 2.0;
+  const double l = m.head_depth / 2.0;
+  switch (left) {
+    case S::kCollarNotch:
+      return {trunk(0.90), front};
+    case S::kSternumBase:
+      return {trunk(0.55), front};
+    case S::kNavel:
+      return {trunk(0.27), front};
+    case S::kPubis:
+      return {trunk(-0.06), front};
+    case S::kNapeBase:
+      return {trunk(0.98), back};
+    case S::kMidBack:
+      return {trunk(0.55), back};
+    case S::kLowerBack:
+      return {trunk(0.25), back};
+    case S::kSacrum:
+      return {trunk(0.06), back};
+    case S::kLeftChest:
+      return {trunk(0.68, 0.29 * m.chest_width), front};
+    case S::kLeftBellySide:
+      return {trunk(0.25),
+              glm::normalize(Vec3{0.36 * m.waist_width, 0.0, 0.45 * m.belly_thickness})};
+    case S::kLeftShoulderTop:
+      return {Vec3{0.34 * m.shoulder_width, trunk(0.80).y, depth}, kUp};
+    case S::kLeftShoulderBlade:
+      return {trunk(0.75, 0.30 * m.chest_width), back};
+    case S::kLeftRibs:
+      return {trunk(0.60), side};
+    case S::kLeftWaistSide:
+      return {trunk(0.30), side};
+    case S::kLeftHipSide:
+      return {trunk(-0.01), side};
+    case S::kForehead:
+      return {head(0.64), front};
+    case S::kCrown:
+      return {head(0.5), kUp};
+    case S::kBackOfHead:
+      return {head(0.55), back};
+    case S::kNoseTip:
+      return {head(0.385), front};
+    case S::kChin:
+      return {head(0.10), front};
+    case S::kThroat:
+      return {head(0.16) + Vec3{0.0, 0.0, 0.40 * l}, glm::normalize(Vec3{0.0, -1.0, -0.15})};
+    case S::kLeftEar:
+      return {head(0.44) + Vec3{0.0, 0.0, -0.08 * l}, side};
+    case S::kLeftCheek:
+    default:
+      return {head(0.38), glm::normalize(Vec3{0.62 * w, 0.0, 0.72 * l})};
+  }
+}
+
+Body MeasureBody(const PersonShape& shape, const FigureSurface& surface) {
+  const PersonParameters& m = shape.parameters();
+  Body body;
+  body.name = m.name;
+  body.skeleton = shape.skeleton();
+  body.standing_root_height = body.skeleton.offset[0].y;
+  for (const Vec3& p : surface.position_ms) body.height = std::max(body.height, p.y);
+
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    const SampleRay ray = RayOf(shape, static_cast<S>(i));
+    const SkinPoint point = PointAlong(surface, ray.origin_ms, ray.direction);
+    body.surface.sample_ms[i] = point.position_ms;
+    body.surface.attachment[i] = point.attachment;
+  }
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const auto segment = static_cast<LimbSegment>(s);
+    body.surface.limb_radius[s] =
+        MeasureRadius(surface, shape.Joint(StartJoint(segment)), shape.Joint(EndJoint(segment)));
+  }
+  const Vec3 down{0.0, -1.0, 0.0};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double sign = side == 0 ? 1.0 : -1.0;
+    const Vec3& wrist = shape.Joint(side == 0 ? J::kLeftHand : J::kRightHand);
+    const double reach = m.hand_length;
+    HandSurface& hand = body.surface.hand[side];
+    hand.palm_ms =
+        PointAlong(surface, wrist + Vec3{sign * 0.36 * reach, 0.0, 0.0}, down).position_ms;
+    hand.palm_normal_ms = down;
+    hand.half_thickness = wrist.y - hand.palm_ms.y;
+    // Just short of the tip, where a finger pad is.
+    hand.fingertip_ms =
+        PointAlong(surface, wrist + reach * Vec3{sign * 0.965, -0.045, 0.067}, down).position_ms;
+
+    const Vec3& ankle = shape.Joint(side == 0 ? J::kLeftFoot : J::kRightFoot);
+    FootSurface& foot = body.surface.foot[side];
+    const double sole = 0.06 * m.foot_length;
+    foot.heel_ms =
+        PointAlong(surface, {ankle.x, sole, ankle.z - 0.12 * m.foot_length}, down).position_ms;
+    foot.ball_ms =
+        PointAlong(surface, {ankle.x, sole, ankle.z + 0.46 * m.foot_length}, down).position_ms;
+    foot.toe_tip_ms =
+        PointAlong(surface, {ankle.x, sole, ankle.z + 0.46 * m.foot_length}, {0.0, 0.0, 1.0})
+            .position_ms;
+  }
+  return body;
+}
+
+}  // namespace ego
