@@ -20,7 +20,7 @@ namespace ego {
 ///   person is made 1.7 m tall.
 /// * Rest pose: the zero rotation where it has the shape of a person, else the frame of the motion
 ///   that is nearest to a T-pose.
-/// * Floor: the lowest 2 per cent of what the feet reach over the take (`floor_offset` is what was
+/// * Floor: the lowest 5 per cent of what the soles reach over the take (`floor_offset` is what was
 ///   added to the file's heights).
 ///
 /// `notes`, when given, receives sentences for the user (guessed unit, missing joints).

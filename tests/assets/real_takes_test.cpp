@@ -2,8 +2,12 @@
 // Takes of real people that may lie beside the project: what the index there says of each file
 // (counted by other programs) must be what the readers find.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <ostream>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,6 +17,7 @@
 #include "assets/takes/c3d.h"
 #include "assets/takes/trc.h"
 #include "core/markers/up_axis.h"
+#include "core/pipeline/skeleton_capture.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/take_laws.h"
 
@@ -139,6 +144,62 @@ TEST_P(RealMotion, IsReadAsItsIndexSays) {
   const std::vector<JointTree::Joint>& joints = motion->tree.joints;
   EXPECT_EQ(static_cast<std::size_t>(std::count_if(joints.begin(), joints.end(), is_end)) + 43u,
             joints.size());
+}
+
+TEST_P(RealMotion, IsCapturedWithEveryJointInItsPlace) {
+  using J = HumanoidJoint;
+  EGO_SHARED_DATA_OR_SKIP(path, std::string("bvh/") + GetParam().first);
+  const Result<JointMotion> motion = ReadBvh(path);
+  ASSERT_TRUE(motion) << motion.error();
+  const Result<CapturedMotion> captured = CaptureFromJointMotion(*motion);
+  ASSERT_TRUE(captured) << captured.error();
+  const Body& performer = captured->performer;
+  EXPECT_GT(performer.height, 1.5);
+  EXPECT_LT(performer.height, 1.9);
+  EXPECT_LT(std::abs(captured->floor_offset), 0.06);
+
+  const std::vector<std::pair<J, const char*>> joints = {{J::kHips, "hip"},
+                                                         {J::kHead, "head"},
+                                                         {J::kLeftHand, "lHand"},
+                                                         {J::kRightHand, "rHand"},
+                                                         {J::kLeftLowerArm, "lForeArm"},
+                                                         {J::kLeftLowerLeg, "lShin"},
+                                                         {J::kRightLowerLeg, "rShin"},
+                                                         {J::kLeftFoot, "lFoot"},
+                                                         {J::kRightFoot, "rFoot"}};
+  const std::size_t n = motion->tree.joints.size();
+  std::size_t on_floor = 0;
+  std::size_t looked_at = 0;
+  for (std::size_t f = 0; f < motion->frame_count; f += 25) {
+    // Where the file has its joints: matrices down the tree, centimetres.
+    std::vector<Mat4> global(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      Mat4 local = glm::mat4_cast(motion->rotation_ls[f * n + j]);
+      local[3] = Vec4(motion->translation_ls[f * n + j], 1.0);
+      const int parent = motion->tree.joints[j].parent;
+      global[j] = parent < 0 ? local : global[static_cast<std::size_t>(parent)] * local;
+    }
+    const auto in_file = [&](std::string_view name) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (motion->tree.joints[j].name == name) return 0.01 * Vec3(global[j][3]);
+      }
+      return Vec3{1e9};
+    };
+    const ModelPose pose = ForwardKinematics(performer.skeleton, captured->poses[f]);
+    for (const auto& [a, name_a] : joints) {
+      EXPECT_NEAR(pose.Position(a).y, in_file(name_a).y + captured->floor_offset, 1e-6) << name_a;
+      for (const auto& [b, name_b] : joints) {
+        EXPECT_NEAR(glm::length(pose.Position(a) - pose.Position(b)),
+                    glm::length(in_file(name_a) - in_file(name_b)), 1e-6)
+            << name_a << " " << name_b << " frame " << f;
+      }
+    }
+    const double ankle = std::min(pose.Position(J::kLeftFoot).y, pose.Position(J::kRightFoot).y);
+    const std::array<Vec3, kJointCount> canonical = CanonicalPositions(performer.skeleton);
+    on_floor += std::abs(ankle - canonical[Index(J::kLeftFoot)].y) < 0.04 ? 1 : 0;
+    ++looked_at;
+  }
+  EXPECT_GT(on_floor, looked_at / 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bvh, RealMotion,
