@@ -161,7 +161,7 @@ LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const
   const Vec3 mid = Perpendicular(placed.mid - chain.base_ws, axis);
   const Vec3 wanted = Perpendicular(mid_target - chain.base_ws, axis);
   const double angle =
-      AngleAbout(axis, mid, wanted) * Trust(glm::length(wanted), 0.02 * chain.Reach());
+      AngleAbout(axis, mid, wanted) * Trust(glm::length(wanted), 0.1 * chain.Reach());
   const double flexion = MeasureFlexion(chain, reached.mid).angle;
   reached.base = TwistBase(chain, reached.base, axis, BoundTwist(angle, flexion));
   return reached;
@@ -188,7 +188,7 @@ LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const
   const Vec3 wanted = to_end / end_distance;
   const double flexion = MeasureFlexion(chain, reached.mid).angle;
   const double twist = AngleAbout(upper, placed.end - placed.mid, wanted) *
-                       Trust(glm::length(Perpendicular(to_end, upper)), 0.02 * chain.Reach());
+                       Trust(glm::length(Perpendicular(to_end, upper)), 0.05 * chain.Reach());
   reached.base = TwistBase(chain, reached.base, upper, BoundTwist(twist, flexion));
 
   const double now = glm::dot(upper, glm::normalize(placed.end - placed.mid));

@@ -40,8 +40,9 @@ struct Importance {
   double max = 0.0;
   double priority = 0.0;
 
-  double Of(double gap, double orthogonality) {
-    const double importance = Proximity(gap, epsilon) * orthogonality;
+  double Of(double gap, double orthogonality) { return Of(gap, orthogonality, epsilon); }
+  double Of(double gap, double orthogonality, double saturation) {
+    const double importance = Proximity(gap, saturation) * orthogonality;
     sum += importance;
     max = std::max(max, importance);
     priority = std::max(priority, Proximity(gap, gamma_epsilon) * orthogonality);
@@ -104,14 +105,15 @@ GroundRelation RelateToGround(const Context& context, LimbPoint j, Importance& i
   }
   relation.offset = Vec2{sole.x - root.x, sole.z - root.z} / h_root;
   relation.gap = sole.y / h_root;
-  relation.importance = importance.Of(std::abs(sole.y), 1.0);
+  relation.importance =
+      importance.Of(std::abs(sole.y), 1.0, context.scale * context.settings.ground_epsilon);
   return relation;
 }
 
 void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) {
   const NormalizeSettings& settings = context.settings;
   const Limb limb = LimbOf(j);
-  Importance importance{context.scale * (IsArm(limb) ? settings.arm_epsilon : settings.leg_epsilon),
+  Importance importance{context.scale * settings.surface_epsilon,
                         context.scale * settings.gamma_epsilon};
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
     RelateToTriangle(context, t, j, importance, out.triangle[t]);
@@ -192,8 +194,8 @@ NormalizeSettings NormalizeSettings::Paper() {
                 .sole_contact = false,
                 .legs_relate_to_arms = true,
                 .clearance = false};
-  paper.arm_epsilon = 0.0005;
-  paper.leg_epsilon = 0.0005;
+  paper.surface_epsilon = 0.0005;
+  paper.ground_epsilon = 0.0005;
   paper.gamma_epsilon = 0.0005;
   paper.orthogonality_softness = 0.0;
   return paper;

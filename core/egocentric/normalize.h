@@ -10,11 +10,12 @@ namespace ego {
 struct NormalizeSettings {
   EgocentricForm form;
 
-  /// Metres below which an arm's importance no longer grows. Smaller: contacts are held harder, and
-  /// marker noise of that size shakes the arm. Larger: contacts are averaged away.
-  double arm_epsilon = 0.002;
-  /// The same for legs and ground. Feet stand still only when it is small.
-  double leg_epsilon = 0.0004;
+  /// Metres below which the importance of a surface no longer grows. Smaller: contacts are held
+  /// harder by the mean itself, and marker noise of that size shakes the limb. Larger: contacts are
+  /// left to the last correction (AdaptSettings::clearance_steps).
+  double surface_epsilon = 0.010;
+  /// The same for the ground. Feet stand still only when it is small.
+  double ground_epsilon = 0.0004;
   /// The same for gamma of appendix C. Smaller: the elbow jumps when a wrist leaves a contact.
   /// Larger: elbows that touch something give way to wrists that do not.
   double gamma_epsilon = 0.010;
