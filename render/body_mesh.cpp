@@ -35,12 +35,12 @@ class Loft {
     ++rings_;
   }
 
-  void Close(const Vec3& start, const Vec3& end, std::size_t mesh_first) {
+  void Close(const Vec3& start, const Vec3& end) {
     const auto id = [&](std::size_t ring, std::size_t i) {
-      return static_cast<std::uint32_t>(first_ + ring * count_ + i % count_ - mesh_first);
+      return static_cast<std::uint32_t>(first_ + ring * count_ + i % count_ - sink_.first_vertex);
     };
     const std::size_t first_index = sink_.indices.size();
-    const auto start_id = static_cast<std::uint32_t>(sink_.positions.size() - mesh_first);
+    const auto start_id = sink_.Next();
     sink_.positions.emplace_back(start);
     sink_.positions.emplace_back(end);
     for (std::size_t i = 0; i < count_; ++i) {
@@ -53,9 +53,9 @@ class Loft {
     }
     sink_.normals.resize(sink_.positions.size(), glm::vec3{0.0f});
     for (std::size_t i = first_index; i < sink_.indices.size(); i += 3) {
-      const std::array<std::size_t, 3> v = {mesh_first + sink_.indices[i],
-                                            mesh_first + sink_.indices[i + 1],
-                                            mesh_first + sink_.indices[i + 2]};
+      const std::array<std::size_t, 3> v = {sink_.first_vertex + sink_.indices[i],
+                                            sink_.first_vertex + sink_.indices[i + 1],
+                                            sink_.first_vertex + sink_.indices[i + 2]};
       const glm::vec3 n = glm::cross(sink_.positions[v[1]] - sink_.positions[v[0]],
                                      sink_.positions[v[2]] - sink_.positions[v[0]]);
       for (const std::size_t k : v) sink_.normals[k] += n;
@@ -75,33 +75,84 @@ class Loft {
   std::size_t rings_ = 0;
 };
 
+/// A triangle curved by the normals of its corners: a point-normal triangle (Vlachos et al., Curved
+/// PN Triangles, 2001), cut into kCuts^2 flat ones.
+void AppendCurved(const std::array<glm::vec3, 3>& p, const std::array<glm::vec3, 3>& n,
+                  TriangleSink& sink) {
+  constexpr int kCuts = 4;
+  const auto edge = [&](std::size_t i, std::size_t j) {
+    return (2.0f * p[i] + p[j] - glm::dot(p[j] - p[i], n[i]) * n[i]) / 3.0f;
+  };
+  const glm::vec3 b210 = edge(0, 1), b120 = edge(1, 0), b021 = edge(1, 2), b012 = edge(2, 1),
+                  b102 = edge(2, 0), b201 = edge(0, 2);
+  const glm::vec3 e = (b210 + b120 + b021 + b012 + b102 + b201) / 6.0f;
+  const glm::vec3 b111 = e + 0.5f * (e - (p[0] + p[1] + p[2]) / 3.0f);
+  const std::uint32_t first = sink.Next();
+  for (int row = 0; row <= kCuts; ++row) {
+    for (int k = 0; k <= row; ++k) {
+      const float w = 1.0f - static_cast<float>(row) / kCuts;
+      const float v = static_cast<float>(k) / kCuts;
+      const float u = 1.0f - w - v;
+      sink.positions.push_back(w * w * w * p[0] + u * u * u * p[1] + v * v * v * p[2] +
+                               3.0f * (w * w * u * b210 + w * u * u * b120 + w * w * v * b201 +
+                                       u * u * v * b021 + w * v * v * b102 + u * v * v * b012) +
+                               6.0f * w * u * v * b111);
+      sink.normals.push_back(Normalized(w * n[0] + u * n[1] + v * n[2]));
+    }
+  }
+  const auto id = [&](int row, int k) {
+    return first + static_cast<std::uint32_t>(row * (row + 1) / 2 + k);
+  };
+  for (int row = 0; row < kCuts; ++row) {
+    for (int k = 0; k <= row; ++k) {
+      sink.indices.insert(sink.indices.end(), {id(row, k), id(row + 1, k), id(row + 1, k + 1)});
+      if (k == row) continue;
+      sink.indices.insert(sink.indices.end(), {id(row, k), id(row + 1, k + 1), id(row, k + 1)});
+    }
+  }
+}
+
 void AppendTrunkAndHead(const Body& body, const ModelPose& pose, const Vec3& offset_ws,
-                        TriangleSink& sink, std::size_t mesh_first) {
+                        CrudeLook look, TriangleSink& sink) {
   std::array<Vec3, kSampleCount> sample_ws;
   PoseSamples(body.skeleton, body.surface, pose, sample_ws);
-  std::array<Vec3, kSampleCount> smooth{};
+  std::array<glm::vec3, kSampleCount> at;
+  for (std::size_t i = 0; i < kSampleCount; ++i) at[i] = glm::vec3(sample_ws[i] + offset_ws);
+  std::array<glm::vec3, kSampleCount> smooth{};
   const auto face_normal = [&](const SampleTriangle& t) {
-    const Vec3& a = sample_ws[Index(t[0])];
-    return glm::cross(sample_ws[Index(t[1])] - a, sample_ws[Index(t[2])] - a);
+    return Normalized(
+        glm::cross(at[Index(t[1])] - at[Index(t[0])], at[Index(t[2])] - at[Index(t[0])]));
   };
+  // Weighted by the corner's angle, so that the cut of the triangles does not show.
   for (const SampleTriangle& t : SampleTriangles()) {
-    const Vec3 n = face_normal(t);
-    for (const SamplePoint s : t) smooth[Index(s)] += n;
+    const glm::vec3 n = face_normal(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::vec3& corner = at[Index(t[k])];
+      const float cosine = glm::dot(Normalized(at[Index(t[(k + 1) % 3])] - corner),
+                                    Normalized(at[Index(t[(k + 2) % 3])] - corner));
+      smooth[Index(t[k])] += std::acos(glm::clamp(cosine, -1.0f, 1.0f)) * n;
+    }
   }
+  for (glm::vec3& n : smooth) n = Normalized(n);
   for (const SampleTriangle& t : SampleTriangles()) {
-    const glm::vec3 flat = Normalized(glm::vec3(face_normal(t)));
-    for (const SamplePoint s : t) {
-      sink.indices.push_back(static_cast<std::uint32_t>(sink.positions.size() - mesh_first));
-      sink.positions.emplace_back(sample_ws[Index(s)] + offset_ws);
-      sink.normals.push_back(
-          Normalized(glm::mix(flat, Normalized(glm::vec3(smooth[Index(s)])), kSmooth)));
+    const std::array<std::size_t, 3> v = {Index(t[0]), Index(t[1]), Index(t[2])};
+    if (look == CrudeLook::kRounded) {
+      AppendCurved({at[v[0]], at[v[1]], at[v[2]]}, {smooth[v[0]], smooth[v[1]], smooth[v[2]]},
+                   sink);
+      continue;
+    }
+    const glm::vec3 flat = face_normal(t);
+    for (const std::size_t corner : v) {
+      sink.indices.push_back(sink.Next());
+      sink.positions.push_back(at[corner]);
+      sink.normals.push_back(Normalized(glm::mix(flat, smooth[corner], kSmooth)));
     }
   }
 }
 
 void AppendHand(const Body& body, const std::array<Vec3, kJointCount>& canonical,
-                const ModelPose& pose, const Vec3& offset_ws, std::size_t side, TriangleSink& sink,
-                std::size_t mesh_first) {
+                const ModelPose& pose, const Vec3& offset_ws, std::size_t side,
+                TriangleSink& sink) {
   const J joint = side == 0 ? J::kLeftHand : J::kRightHand;
   const HandSurface& hand = body.surface.hand[side];
   const Vec3& wrist = canonical[Index(joint)];
@@ -130,12 +181,16 @@ void AppendHand(const Body& body, const std::array<Vec3, kJointCount>& canonical
     }
     loft.AddRing(ring);
   }
-  loft.Close(place(wrist - 0.04 * length * along), place(hand.fingertip_ms), mesh_first);
+  loft.Close(place(wrist - 0.04 * length * along), place(hand.fingertip_ms));
+  const Vec3 thumb = (side == 0 ? 1.0 : -1.0) * glm::cross(hand.palm_normal_ms, along);
+  AppendCapsule(place(wrist + length * (0.20 * along + 0.10 * thumb)), 0.078 * length,
+                place(wrist + length * (0.50 * along + 0.31 * thumb)), 0.055 * length,
+                Roundness::kBone, sink);
 }
 
 void AppendFoot(const Body& body, const std::array<Vec3, kJointCount>& canonical,
-                const ModelPose& pose, const Vec3& offset_ws, std::size_t side, TriangleSink& sink,
-                std::size_t mesh_first) {
+                const ModelPose& pose, const Vec3& offset_ws, std::size_t side,
+                TriangleSink& sink) {
   const J joint = side == 0 ? J::kLeftFoot : J::kRightFoot;
   const J toes = side == 0 ? J::kLeftToes : J::kRightToes;
   const FootSurface& foot = body.surface.foot[side];
@@ -172,77 +227,49 @@ void AppendFoot(const Body& body, const std::array<Vec3, kJointCount>& canonical
     loft.AddRing(ring);
   }
   loft.Close(place(foot.heel_ms + 0.2 * rise * up, false),
-             place(foot.toe_tip_ms + 0.1 * rise * up, true), mesh_first);
-}
-
-CapsuleInstance Between(const Vec3& a, double radius_a, const Vec3& b, double radius_b,
-                        const glm::vec4& color) {
-  return {glm::vec4(glm::vec3(a), static_cast<float>(radius_a)),
-          glm::vec4(glm::vec3(b), static_cast<float>(radius_b)), color};
+             place(foot.toe_tip_ms + 0.1 * rise * up, true));
 }
 
 }  // namespace
 
-void AppendBodyMesh(const Body& body, const ModelPose& pose, const Vec3& offset_ws,
-                    TriangleSink& sink) {
-  const std::size_t mesh_first = sink.positions.size();
+void AppendBody(const Body& body, const ModelPose& pose, const Vec3& offset_ws, CrudeLook look,
+                TriangleSink& sink) {
   const std::array<Vec3, kJointCount> canonical = CanonicalPositions(body.skeleton);
-  AppendTrunkAndHead(body, pose, offset_ws, sink, mesh_first);
-  for (std::size_t side = 0; side < 2; ++side) {
-    AppendHand(body, canonical, pose, offset_ws, side, sink, mesh_first);
-    AppendFoot(body, canonical, pose, offset_ws, side, sink, mesh_first);
-  }
-}
-
-void AppendBodyCapsules(const Body& body, const ModelPose& pose, const Vec3& offset_ws,
-                        const glm::vec4& color, std::vector<CapsuleInstance>& out) {
+  AppendTrunkAndHead(body, pose, offset_ws, look, sink);
+  const auto at = [&](J joint) { return pose.Position(joint) + offset_ws; };
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const auto segment = static_cast<LimbSegment>(s);
     const double radius = body.surface.limb_radius[s];
-    out.push_back(Between(pose.Position(StartJoint(segment)) + offset_ws, radius,
-                          pose.Position(EndJoint(segment)) + offset_ws, radius, color));
+    AppendCapsule(at(StartJoint(segment)), radius, at(EndJoint(segment)), radius, Roundness::kLimb,
+                  sink);
   }
-  const std::array<Vec3, kJointCount> canonical = CanonicalPositions(body.skeleton);
   const auto& sample = body.surface.sample_ms;
   const double ears =
       glm::length(sample[Index(SamplePoint::kLeftEar)] - sample[Index(SamplePoint::kRightEar)]);
-  out.push_back(Between(pose.Position(J::kNeck) + offset_ws, 0.36 * ears,
-                        pose.Position(J::kHead) + offset_ws, 0.34 * ears, color));
+  AppendCapsule(at(J::kNeck), 0.36 * ears, at(J::kHead), 0.34 * ears, Roundness::kLimb, sink);
   for (std::size_t side = 0; side < 2; ++side) {
-    const J joint = side == 0 ? J::kLeftHand : J::kRightHand;
-    const HandSurface& hand = body.surface.hand[side];
-    const Vec3& wrist = canonical[Index(joint)];
-    const Vec3 finger = hand.fingertip_ms - wrist;
-    const double length = glm::length(finger);
-    if (length < 1e-6) continue;
-    const double sign = side == 0 ? 1.0 : -1.0;
-    const Vec3 thumb = sign * glm::cross(hand.palm_normal_ms, finger) / length;
-    const Vec3 root = wrist + 0.20 * finger + 0.10 * length * thumb;
-    const Vec3 tip = wrist + 0.50 * finger + 0.31 * length * thumb;
-    out.push_back(Between(PosePoint(canonical, pose, joint, root) + offset_ws, 0.078 * length,
-                          PosePoint(canonical, pose, joint, tip) + offset_ws, 0.055 * length,
-                          color));
+    AppendHand(body, canonical, pose, offset_ws, side, sink);
+    AppendFoot(body, canonical, pose, offset_ws, side, sink);
   }
 }
 
-void AppendSkeletonCapsules(const Skeleton& skeleton, const ModelPose& pose, const Vec3& offset_ws,
-                            const glm::vec4& color, std::vector<CapsuleInstance>& out) {
+void AppendSkeleton(const Skeleton& skeleton, const ModelPose& pose, const Vec3& offset_ws,
+                    TriangleSink& sink) {
   // Thickness follows the body's size: a child's bones are thin ones.
   const double leg = BoneLength(skeleton, J::kLeftLowerLeg) + BoneLength(skeleton, J::kLeftFoot);
   const double size = std::clamp(leg / 0.84, 0.2, 3.0);
   const auto at = [&](J joint) { return pose.Position(joint) + offset_ws; };
+  const auto bone = [&](const Vec3& a, double radius_a, const Vec3& b, double radius_b) {
+    AppendCapsule(a, size * radius_a, b, size * radius_b, Roundness::kBone, sink);
+  };
   const auto stub = [&](J joint, const Vec3& direction, double length) {
-    out.push_back(Between(at(joint), 0.016 * size,
-                          at(joint) + pose.Rotation(joint) * (size * length * direction),
-                          0.008 * size, color));
+    bone(at(joint), 0.016, at(joint) + pose.Rotation(joint) * (size * length * direction), 0.008);
   };
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const auto joint = static_cast<J>(j);
-    if (j != 0 && BoneLength(skeleton, joint) < 1e-6) continue;  // a virtual joint
-    out.push_back(Between(at(joint), 0.022 * size, at(joint), 0.022 * size, color));
-    if (j != 0) {
-      out.push_back(Between(at(Parent(joint)), 0.017 * size, at(joint), 0.010 * size, color));
-    }
+    if (j != 0 && BoneLength(skeleton, joint) < 1e-6) continue;
+    bone(at(joint), 0.022, at(joint), 0.022);
+    if (j != 0) bone(at(Parent(joint)), 0.017, at(joint), 0.010);
   }
   stub(J::kHead, {0.0, 1.0, 0.1}, 0.16);
   stub(J::kLeftHand, CanonicalDirection(Limb::kLeftArm), 0.12);

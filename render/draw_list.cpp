@@ -81,7 +81,6 @@ void DrawList::Clear() {
   normals.clear();
   uvs.clear();
   indices.clear();
-  capsules.clear();
   meshes.clear();
   groups.clear();
   contact_shadows.clear();
@@ -127,25 +126,29 @@ DrawList::Group DrawList::Begin(Pass pass, const Figure& figure) const {
   group.pass = pass;
   if (figure.selected) group.rim = glm::vec4(Linear(figure.color), kRimStrength);
   group.first_mesh = Size(meshes);
-  group.first_capsule = Size(capsules);
   return group;
 }
 
 void DrawList::End(Group group, const Vec3& eye, std::size_t first_vertex) {
   group.mesh_count = Size(meshes) - group.first_mesh;
-  group.capsule_count = Size(capsules) - group.first_capsule;
-  if (group.mesh_count == 0 && group.capsule_count == 0) return;
+  if (group.mesh_count == 0) return;
   Box3 box;
   for (std::size_t i = first_vertex; i < positions.size(); ++i) box.Add(Vec3(positions[i]));
-  for (std::size_t i = group.first_capsule; i < capsules.size(); ++i) {
-    for (const glm::vec4& end : {capsules[i].end_a, capsules[i].end_b}) {
-      box.Add(Vec3(end) - Vec3(end.w));
-      box.Add(Vec3(end) + Vec3(end.w));
-    }
-  }
   group.distance = box.IsEmpty() ? 0.0 : glm::length(box.Center() - eye);
   bounds.Add(box);
   groups.push_back(group);
+}
+
+TriangleSink DrawList::NewMesh() { return {positions, normals, indices, positions.size()}; }
+
+void DrawList::AddMesh(const TriangleSink& sink, std::size_t first_index, const glm::vec4& color) {
+  if (indices.size() == first_index) return;
+  Mesh mesh;
+  mesh.color = color;
+  mesh.first_vertex = static_cast<std::uint32_t>(sink.first_vertex);
+  mesh.first_index = static_cast<std::uint32_t>(first_index);
+  mesh.index_count = Size(indices) - mesh.first_index;
+  meshes.push_back(mesh);
 }
 
 void DrawList::AddCharacter(const Figure& figure, std::uint32_t index,
@@ -222,17 +225,12 @@ void DrawList::AddSurface(const Figure& figure, const Vec3& eye) {
                                              : Pass::kOpaque;
   Group group = Begin(pass, figure);
   group.casts_shadow = !overlay;
-  const glm::vec4 color(Linear(shown.color), std::clamp(shown.opacity, 0.0f, 1.0f));
-  Mesh mesh;
-  mesh.color = color;
-  mesh.first_vertex = Size(positions);
-  mesh.first_index = Size(indices);
-  TriangleSink sink{positions, normals, indices};
-  AppendBodyMesh(*shown.body, *shown.pose, figure.offset_ws, sink);
-  mesh.index_count = Size(indices) - mesh.first_index;
-  meshes.push_back(mesh);
-  AppendBodyCapsules(*shown.body, *shown.pose, figure.offset_ws, color, capsules);
-  End(group, eye, mesh.first_vertex);
+  TriangleSink sink = NewMesh();
+  const std::size_t first_index = indices.size();
+  AppendBody(*shown.body, *shown.pose, figure.offset_ws,
+             shown.through ? CrudeLook::kFacets : CrudeLook::kRounded, sink);
+  AddMesh(sink, first_index, glm::vec4(Linear(shown.color), std::clamp(shown.opacity, 0.0f, 1.0f)));
+  End(group, eye, sink.first_vertex);
   if (overlay) return;
   const std::array<Vec3, 4> feet = {
       shown.pose->Position(J::kLeftFoot), shown.pose->Position(J::kRightFoot),
@@ -244,9 +242,11 @@ void DrawList::AddSkeleton(const Figure& figure, const Vec3& eye) {
   const SkeletonPart& shown = *figure.skeleton;
   Group group = Begin(shown.through ? Pass::kThrough : Pass::kOpaque, figure);
   group.casts_shadow = !figure.character && !figure.surface;
-  AppendSkeletonCapsules(*shown.skeleton, *shown.pose, figure.offset_ws,
-                         glm::vec4(Linear(shown.color), 1.0f), capsules);
-  End(group, eye, positions.size());
+  TriangleSink sink = NewMesh();
+  const std::size_t first_index = indices.size();
+  AppendSkeleton(*shown.skeleton, *shown.pose, figure.offset_ws, sink);
+  AddMesh(sink, first_index, glm::vec4(Linear(shown.color), 1.0f));
+  End(group, eye, sink.first_vertex);
   if (!group.casts_shadow) return;
   const std::array<Vec3, 4> feet = {
       shown.pose->Position(J::kLeftFoot), shown.pose->Position(J::kRightFoot),
@@ -258,15 +258,16 @@ void DrawList::AddMarkers(const Figure& figure, const Vec3& eye) {
   const MarkerPart& shown = *figure.markers;
   Group group = Begin(Pass::kOpaque, figure);
   group.rim = {};
-  const glm::vec4 color(Linear(shown.color), 1.0f);
+  TriangleSink sink = NewMesh();
+  const std::size_t first_index = indices.size();
   const std::size_t n = std::min(shown.frame.position_ws.size(), shown.frame.visible.size());
   for (std::size_t i = 0; i < n; ++i) {
     if (shown.frame.visible[i] == 0) continue;
-    const glm::vec4 ball(glm::vec3(shown.frame.position_ws[i] + figure.offset_ws),
-                         static_cast<float>(shown.radius));
-    capsules.push_back({ball, ball, color});
+    const Vec3 at = shown.frame.position_ws[i] + figure.offset_ws;
+    AppendCapsule(at, shown.radius, at, shown.radius, Roundness::kBone, sink);
   }
-  End(group, eye, positions.size());
+  AddMesh(sink, first_index, glm::vec4(Linear(shown.color), 1.0f));
+  End(group, eye, sink.first_vertex);
 }
 
 void DrawList::AddFeet(const Figure& figure, std::span<const Vec3> points_ws) {

@@ -59,7 +59,6 @@ struct DrawList {
     bool casts_shadow = true;
     glm::vec4 rim{0.0f};
     std::uint32_t first_mesh = 0, mesh_count = 0;
-    std::uint32_t first_capsule = 0, capsule_count = 0;
   };
   struct Spot {
     glm::vec4 center;  // and radius
@@ -78,7 +77,6 @@ struct DrawList {
   std::vector<glm::vec3> normals;
   std::vector<glm::vec2> uvs;
   std::vector<std::uint32_t> indices;
-  std::vector<CapsuleInstance> capsules;
   std::vector<Mesh> meshes;
   std::vector<Group> groups;
   std::vector<Spot> contact_shadows;
@@ -101,6 +99,9 @@ struct DrawList {
   void AddPlate(const Figure& figure, const CharacterStore& characters, const Camera& camera);
   Group Begin(Pass pass, const Figure& figure) const;
   void End(Group group, const Vec3& eye, std::size_t first_vertex);
+  /// A mesh of the list's own triangles: fill the sink, then pass it to AddMesh.
+  TriangleSink NewMesh();
+  void AddMesh(const TriangleSink& sink, std::size_t first_index, const glm::vec4& color);
 
   std::vector<glm::mat4> palette_;
 };

@@ -24,6 +24,23 @@ struct Placed {
   std::vector<TextAtlas::Quad> quads;
 };
 
+/// Clip depth at which a plate is drawn: a little nearer than its anchor and than the floor behind
+/// its lower edge, so that neither the own toes nor the floor cut it, but bodies before it do.
+float DepthOf(const Placed& p, const Camera& camera, const Mat4& clip, ViewportSize size) {
+  const Vec3 eye = camera.Position();
+  const Vec3 ray = camera.RayThrough({0.5 * (p.min.x + p.max.x), p.max.y}, size);
+  Vec3 at = p.plate->anchor_ws;
+  if (ray.y < -1e-6 && eye.y > 0.0) {
+    const Vec3 floor = eye - (eye.y / ray.y) * ray;
+    if (glm::length(floor - eye) < glm::length(at - eye)) at = floor;
+  }
+  const double distance = glm::length(at - eye);
+  if (distance < 1e-6) return 0.0f;
+  at += std::min(0.2, 0.3 * distance) / distance * (eye - at);
+  const Vec4 h = clip * Vec4(at, 1.0);
+  return static_cast<float>(h.z / h.w);
+}
+
 class Writer {
  public:
   Writer(ViewportSize size, std::vector<PlateVertex>& out)
@@ -75,11 +92,6 @@ void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera,
     Placed& p = placed.emplace_back();
     p.plate = &plate;
     p.distance = pixel->z;
-    // A little nearer than its anchor, so that the floor and the own toes do not cut it.
-    const Vec3 near = plate.anchor_ws + std::min(0.25, 0.5 * pixel->z) *
-                                            glm::normalize(camera.Position() - plate.anchor_ws);
-    const Vec4 h = clip * Vec4(near, 1.0);
-    p.depth = static_cast<float>(h.z / h.w);
     const float text = atlas.Layout(plate.name, p.quads);
     const float width = text + s * (2.0f * kPadding + kMark + kGap);
     p.min = {snap(static_cast<float>(pixel->x) - 0.5f * width), snap(static_cast<float>(pixel->y))};
@@ -103,6 +115,7 @@ void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera,
     }
   }
 
+  for (Placed& p : placed) p.depth = DepthOf(p, camera, clip, size);
   Writer writer(size, out);
   for (auto it = placed.rbegin(); it != placed.rend(); ++it) {
     const Placed& p = *it;

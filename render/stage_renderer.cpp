@@ -41,9 +41,9 @@ Mat4 LightMatrix(const Box3& box) {
 }  // namespace
 
 struct StageRenderer::Impl {
-  gl::Program body, body_textured, capsule;
-  gl::Program depth, depth_textured, capsule_depth;
-  gl::Program ground, room, spot, plate;
+  gl::Program body, body_textured;
+  gl::Program depth, depth_textured;
+  gl::Program ground, ground_shadowed, room, spot, plate;
   gl::StageBuffers buffers;
   gl::ShadowTarget shadow;
   gl::ColorTarget multisampled, plain;
@@ -55,7 +55,8 @@ struct StageRenderer::Impl {
   DrawList list;
   DrawList bounds_list;
   int samples = 0;
-  int shadow_map_size = 2048;
+  int shadow_map_size = 1024;
+  bool is_software = false;
 
   // Of the picture being drawn.
   glm::mat4 view_projection{1.0f};
@@ -161,14 +162,6 @@ void StageRenderer::Impl::DrawGroup(const DrawList::Group& group, bool depth_onl
     glFrontFace(mesh.mirrored ? GL_CW : GL_CCW);
     buffers.DrawMesh(mesh, BuffersOf(mesh.character));
   }
-  if (group.capsule_count == 0) return;
-  glEnable(GL_CULL_FACE);
-  glFrontFace(GL_CCW);
-  const gl::Program& program = depth_only ? capsule_depth : capsule;
-  program.Use();
-  program.Set("view_projection", clip);
-  if (!depth_only) program.Set("rim", group.rim);
-  buffers.DrawCapsules(group.first_capsule, group.capsule_count);
 }
 
 void StageRenderer::Impl::DrawGroups(Pass pass) {
@@ -184,6 +177,8 @@ void StageRenderer::Impl::DrawGroups(Pass pass) {
     DrawGroup(group, false, view_projection);
     glDepthMask(GL_TRUE);
   }
+  glEnable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
 }
 
 void StageRenderer::Impl::DrawFloorAndRoom(const StageView& view, const DrawTarget& target) {
@@ -197,21 +192,37 @@ void StageRenderer::Impl::DrawFloorAndRoom(const StageView& view, const DrawTarg
     Box3 box = list.bounds;
     if (box.IsEmpty()) box.Add(Vec3{0.0});
     const Vec3 extent = glm::min(box.max - box.min, Vec3{kLargestStage});
-    SetLight(ground);
-    ground.Set("ground_center", glm::vec3(view.camera.target_ws));
-    ground.Set("ground_reach", static_cast<float>(kGroundReach));
-    ground.Set("room_color", look::kRoom);
-    ground.Set("floor_color", Linear(look::kFloor));
-    ground.Set("line_color", Linear(look::kGrid));
-    ground.Set("pool_center", glm::vec3(box.Center()));
-    ground.Set("pool_radius", static_cast<float>(2.6 + 0.6 * std::max(extent.x, extent.z)));
-    ground.Set("grid_strength", 0.8f);
-    ground.Set("picture_center", center);
-    ground.Set("vignette", vignette);
+    const Vec3 reach{kGroundReach};
+    // Where the key light throws the shadows of the box.
+    Box3 shaded;
+    for (const double y : {box.min.y, box.max.y}) {
+      const Vec3 thrown = std::max(0.0, y) / kKeyDirection.y * kKeyDirection;
+      shaded.Add(box.min - thrown);
+      shaded.Add(box.max - thrown);
+    }
+    const Vec3 low = view.camera.target_ws - reach, high = view.camera.target_ws + reach;
+    const Vec3 inner_low = glm::clamp(shaded.min - 0.05, low, high);
+    const Vec3 inner_high = glm::clamp(shaded.max + 0.05, low, high);
+    const auto lines = [&](int axis) {
+      return std::array<float, 4>{
+          static_cast<float>(low[axis]), static_cast<float>(inner_low[axis]),
+          static_cast<float>(inner_high[axis]), static_cast<float>(high[axis])};
+    };
+    buffers.UploadFloor(lines(0), lines(2));
     glEnable(GL_CULL_FACE);  // from below the floor is glass
-    glFrontFace(GL_CW);      // the square's x and y lie on the ground's x and z
-    buffers.DrawSquare();
-    glFrontFace(GL_CCW);
+    for (const bool middle : {true, false}) {
+      const gl::Program& program = middle && shadows ? ground_shadowed : ground;
+      SetLight(program);
+      program.Set("room_color", look::kRoom);
+      program.Set("floor_color", Linear(look::kFloor));
+      program.Set("line_color", Linear(look::kGrid));
+      program.Set("pool_center", glm::vec3(box.Center()));
+      program.Set("pool_radius", static_cast<float>(3.0 + 0.7 * std::max(extent.x, extent.z)));
+      program.Set("grid_strength", 0.8f);
+      program.Set("picture_center", center);
+      program.Set("vignette", vignette);
+      buffers.DrawFloor(middle);
+    }
 
     if (view.shadows) {
       glEnable(GL_BLEND);
@@ -276,7 +287,7 @@ void StageRenderer::Impl::DrawScene(const StageView& view, const DrawTarget& tar
   glActiveTexture(GL_TEXTURE0 + kShadowUnit);
   glBindTexture(GL_TEXTURE_2D, shadow.DepthTexture());
   glActiveTexture(GL_TEXTURE0);
-  for (const gl::Program* program : {&body, &body_textured, &capsule}) SetLight(*program);
+  for (const gl::Program* program : {&body, &body_textured}) SetLight(*program);
 
   DrawGroups(Pass::kOpaque);
   DrawFloorAndRoom(view, target);
@@ -300,31 +311,33 @@ Result<StageRenderer> StageRenderer::Create(const Options& options) {
     gl::Program* program;
     const char* vertex;
     const char* fragment;
-    bool textured;
+    std::string_view define;
   };
-  const std::array<Recipe, 10> recipes = {{
-      {&impl->body, "body.vert", "body.frag", false},
-      {&impl->body_textured, "body.vert", "body.frag", true},
-      {&impl->capsule, "capsule.vert", "body.frag", false},
-      {&impl->depth, "depth.vert", "depth.frag", false},
-      {&impl->depth_textured, "depth.vert", "depth.frag", true},
-      {&impl->capsule_depth, "capsule.vert", "depth.frag", false},
-      {&impl->ground, "ground.vert", "ground.frag", false},
-      {&impl->room, "room.vert", "room.frag", false},
-      {&impl->spot, "spot.vert", "spot.frag", false},
-      {&impl->plate, "plate.vert", "plate.frag", false},
+  const std::array<Recipe, 9> recipes = {{
+      {&impl->body, "body.vert", "body.frag", {}},
+      {&impl->body_textured, "body.vert", "body.frag", "TEXTURED"},
+      {&impl->depth, "depth.vert", "depth.frag", {}},
+      {&impl->depth_textured, "depth.vert", "depth.frag", "TEXTURED"},
+      {&impl->ground, "ground.vert", "ground.frag", {}},
+      {&impl->ground_shadowed, "ground.vert", "ground.frag", "SHADOWED"},
+      {&impl->room, "room.vert", "room.frag", {}},
+      {&impl->spot, "spot.vert", "spot.frag", {}},
+      {&impl->plate, "plate.vert", "plate.frag", {}},
   }};
-  constexpr std::array<std::string_view, 1> kTextured = {"TEXTURED"};
   for (const Recipe& r : recipes) {
     Result<gl::Program> built =
-        gl::Program::Build(r.vertex, r.fragment,
-                           r.textured ? std::span<const std::string_view>(kTextured)
-                                      : std::span<const std::string_view>());
+        gl::Program::Build(r.vertex, r.fragment, std::span(&r.define, r.define.empty() ? 0u : 1u));
     if (!built) return Error{built.error()};
     *r.program = std::move(*built);
   }
   impl->buffers.Create();
-  impl->shadow_map_size = std::clamp(options.shadow_map_size, 256, 8192);
+  const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view name = driver != nullptr ? driver : "";
+  impl->is_software = name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos ||
+                      name.find("swrast") != name.npos;
+  const int wanted = options.shadow_map_size > 0 ? options.shadow_map_size
+                                                 : (impl->is_software ? 1024 : 2048);
+  impl->shadow_map_size = std::clamp(wanted, 256, 8192);
   // Shaders always have a map to look at, also when shadows are off.
   if (!impl->shadow.Resize(impl->shadow_map_size, impl->shadow_map_size / 2)) {
     return Error{"The graphics driver cannot draw into a depth texture; shadows need one."};
@@ -362,6 +375,8 @@ void StageRenderer::Unload(CharacterId id) {
   impl_->characters.erase(id.value);
   impl_->character_buffers.erase(id.value);
 }
+
+bool StageRenderer::IsSoftware() const { return impl_->is_software; }
 
 void StageRenderer::SetSamples(int samples) {
   GLint limit = 0;

@@ -34,7 +34,7 @@ class StageRenderer {
     /// built-in face stands in.
     std::span<const std::uint8_t> font;
     int samples = 0;  // of multisampling; 0 or 1: none. Clamped to what the driver has
-    int shadow_map_size = 2048;
+    int shadow_map_size = 0;  // texels across; 0: what suits the driver
   };
   /// The sentence names the shader's file and line, or what the context lacks.
   static Result<StageRenderer> Create(const Options& options);
@@ -48,6 +48,9 @@ class StageRenderer {
   /// Unknown ids are ignored.
   void Unload(CharacterId id);
 
+  /// True when the driver draws on the processor (Mesa's llvmpipe), where every pixel costs:
+  /// better without multisampling while things move.
+  bool IsSoftware() const;
   void SetSamples(int samples);
   int Samples() const;
 

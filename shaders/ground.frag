@@ -1,5 +1,5 @@
 // The floor: a pool of light where the bodies stand, which fades into the room; a fine grid every
-// quarter metre and a heavier line each metre.
+// quarter metre and a heavier line each metre. SHADOWED: where the bodies' shadows can fall.
 #include "light.glsl"
 
 in vec3 position_ws;
@@ -21,7 +21,7 @@ out vec4 pixel;
 float Line(vec2 p, vec2 footprint, float step, float width) {
   vec2 d = abs(fract(p / step + 0.5) - 0.5) * step;
   vec2 w = max(vec2(width), footprint);
-  vec2 cover = clamp((w - d) / max(footprint, 1e-5) , 0.0, 1.0) * min(vec2(1.0), width / w);
+  vec2 cover = clamp((w - d) / max(footprint, 1e-5) , 0.0, 1.0) * sqrt(width / w);
   return max(cover.x, cover.y);
 }
 
@@ -34,10 +34,14 @@ void main() {
   float far_fade = clamp(1.25 - away / 32.0, 0.0, 1.0);
   float near_fade = clamp(1.2 - away / 12.0, 0.0, 1.0);
 
+#ifdef SHADOWED
   float lit = SoftLit(shadow_position);
+#else
+  const float lit = 1.0;
+#endif
   vec3 floor_light = floor_color * (0.42 + 0.58 * lit);
-  float grid = max(0.85 * Line(p, footprint, 1.0, 0.0065),
-                   0.30 * near_fade * Line(p, footprint, 0.25, 0.0035));
+  float grid = max(0.75 * Line(p, footprint, 1.0, 0.007),
+                   0.26 * near_fade * Line(p, footprint, 0.25, 0.004));
   floor_light = mix(floor_light, line_color * (0.35 + 0.65 * lit), grid_strength * grid);
 
   vec3 color = mix(room_color, Encode(floor_light), pool * far_fade);

@@ -4,8 +4,6 @@
 #include <array>
 #include <cstddef>
 
-#include "render/stage_meshes.h"
-
 namespace ego::gl {
 namespace {
 
@@ -33,11 +31,11 @@ void Attribute(GLuint index, GLint components, std::size_t stride, std::size_t o
 
 void StageBuffers::Create() {
   for (VertexArray* array :
-       {&mesh_array_, &capsule_array_, &square_array_, &spot_array_, &plate_array_}) {
+       {&mesh_array_, &square_array_, &spot_array_, &floor_array_, &plate_array_}) {
     *array = VertexArray::Make();
   }
-  for (Buffer* buffer : {&positions_, &normals_, &uvs_, &indices_, &capsule_points_,
-                         &capsule_indices_, &capsule_instances_, &square_, &spots_, &plates_}) {
+  for (Buffer* buffer : {&positions_, &normals_, &uvs_, &indices_, &square_, &spots_, &plates_,
+                         &floor_, &floor_indices_}) {
     *buffer = Buffer::Make();
   }
 
@@ -49,21 +47,25 @@ void StageBuffers::Create() {
   glBindBuffer(GL_ARRAY_BUFFER, uvs_.Name());
   Attribute(2, 2, sizeof(glm::vec2), 0);
 
-  const CapsuleMesh capsule = MakeCapsuleMesh(18, 4);
-  capsule_index_count_ = static_cast<GLsizei>(capsule.indices.size());
-  glBindVertexArray(capsule_array_.Name());
-  Fill(GL_ARRAY_BUFFER, capsule_points_, capsule.points.data(),
-       capsule.points.size() * sizeof(glm::vec4), GL_STATIC_DRAW);
-  Attribute(0, 4, sizeof(glm::vec4), 0);
-  Fill(GL_ELEMENT_ARRAY_BUFFER, capsule_indices_, capsule.indices.data(),
-       capsule.indices.size() * sizeof(std::uint16_t), GL_STATIC_DRAW);
-
   constexpr std::array<glm::vec2, 4> kSquare = {glm::vec2{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
   glBindVertexArray(square_array_.Name());
   Fill(GL_ARRAY_BUFFER, square_, kSquare.data(), sizeof(kSquare), GL_STATIC_DRAW);
   Attribute(0, 2, sizeof(glm::vec2), 0);
   glBindVertexArray(spot_array_.Name());
   Attribute(0, 2, sizeof(glm::vec2), 0);
+
+  glBindVertexArray(floor_array_.Name());
+  glBindBuffer(GL_ARRAY_BUFFER, floor_.Name());
+  Attribute(0, 2, sizeof(glm::vec2), 0);
+  std::vector<std::uint16_t> patches;  // the middle one first
+  for (const int cell : {4, 0, 1, 2, 3, 5, 6, 7, 8}) {
+    const auto corner = static_cast<std::uint16_t>(cell / 3 * 4 + cell % 3);
+    for (const int step : {0, 4, 1, 1, 4, 5}) {  // seen from above: counter-clockwise
+      patches.push_back(static_cast<std::uint16_t>(corner + step));
+    }
+  }
+  Fill(GL_ELEMENT_ARRAY_BUFFER, floor_indices_, patches.data(),
+       patches.size() * sizeof(std::uint16_t), GL_STATIC_DRAW);
 
   glBindVertexArray(plate_array_.Name());
   glBindBuffer(GL_ARRAY_BUFFER, plates_.Name());
@@ -84,7 +86,6 @@ void StageBuffers::Upload(const DrawList& list) {
   Stream(GL_ARRAY_BUFFER, positions_, std::span(list.positions));
   Stream(GL_ARRAY_BUFFER, normals_, std::span(list.normals));
   Stream(GL_ARRAY_BUFFER, uvs_, std::span(list.uvs));
-  Stream(GL_ARRAY_BUFFER, capsule_instances_, std::span(list.capsules));
   shadow_spots_ = list.contact_shadows.size();
   glow_spots_ = list.glows.size();
   std::vector<DrawList::Spot> spots = list.contact_shadows;
@@ -114,18 +115,6 @@ void StageBuffers::DrawMesh(const DrawList::Mesh& mesh, const CharacterBuffers* 
                            static_cast<GLint>(mesh.first_vertex));
 }
 
-void StageBuffers::DrawCapsules(std::uint32_t first, std::uint32_t count) const {
-  if (count == 0) return;
-  glBindVertexArray(capsule_array_.Name());
-  glBindBuffer(GL_ARRAY_BUFFER, capsule_instances_.Name());
-  const std::size_t base = first * sizeof(CapsuleInstance);
-  Attribute(3, 4, sizeof(CapsuleInstance), base + offsetof(CapsuleInstance, end_a), 1);
-  Attribute(4, 4, sizeof(CapsuleInstance), base + offsetof(CapsuleInstance, end_b), 1);
-  Attribute(5, 4, sizeof(CapsuleInstance), base + offsetof(CapsuleInstance, color), 1);
-  glDrawElementsInstanced(GL_TRIANGLES, capsule_index_count_, GL_UNSIGNED_SHORT, nullptr,
-                          static_cast<GLsizei>(count));
-}
-
 void StageBuffers::DrawSpots(bool glows) const {
   const std::size_t count = glows ? glow_spots_ : shadow_spots_;
   if (count == 0) return;
@@ -140,6 +129,18 @@ void StageBuffers::DrawSpots(bool glows) const {
 void StageBuffers::DrawSquare() const {
   glBindVertexArray(square_array_.Name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void StageBuffers::UploadFloor(const std::array<float, 4>& x, const std::array<float, 4>& z) {
+  std::array<glm::vec2, 16> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = {x[i % 4], z[i / 4]};
+  Stream(GL_ARRAY_BUFFER, floor_, std::span<const glm::vec2>(corners));
+}
+
+void StageBuffers::DrawFloor(bool middle) const {
+  glBindVertexArray(floor_array_.Name());
+  glDrawElements(GL_TRIANGLES, middle ? 6 : 48, GL_UNSIGNED_SHORT,
+                 Offset(middle ? 0 : 6 * sizeof(std::uint16_t)));
 }
 
 void StageBuffers::DrawPlates() const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -29,19 +29,20 @@ class StageBuffers {
 
   /// Draws a mesh with the indices of its character (null: the list's own).
   void DrawMesh(const DrawList::Mesh& mesh, const CharacterBuffers* character) const;
-  void DrawCapsules(std::uint32_t first, std::uint32_t count) const;
   void DrawSpots(bool glows) const;
   void DrawSquare() const;
+  /// The floor as three by three patches that share their corners: lines at these x and z.
+  void UploadFloor(const std::array<float, 4>& x, const std::array<float, 4>& z);
+  /// The middle patch, or the eight around it.
+  void DrawFloor(bool middle) const;
   void DrawPlates() const;
   GLuint GlyphTexture() const { return glyphs_.Name(); }
 
  private:
-  VertexArray mesh_array_, capsule_array_, square_array_, spot_array_, plate_array_;
+  VertexArray mesh_array_, square_array_, spot_array_, floor_array_, plate_array_;
   Buffer positions_, normals_, uvs_, indices_;
-  Buffer capsule_points_, capsule_indices_, capsule_instances_;
-  Buffer square_, spots_, plates_;
+  Buffer square_, spots_, plates_, floor_, floor_indices_;
   Texture glyphs_;
-  GLsizei capsule_index_count_ = 0;
   std::size_t shadow_spots_ = 0, glow_spots_ = 0;
   GLsizei plate_vertices_ = 0;
 };
