@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "assets/people/posture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ego {
+namespace {
+
+using J = HumanoidJoint;
+
+double Mix(double a, double b, double t) { return a + t * (b - a); }
+
+Bend Mix(const Bend& a, const Bend& b, double t) {
+  return {Mix(a.pitch, b.pitch, t), Mix(a.yaw, b.yaw, t), Mix(a.roll, b.roll, t)};
+}
+
+Quat Rotation(const Bend& bend, double share) {
+  return glm::angleAxis(Radians(share * bend.yaw), Vec3{0.0, 1.0, 0.0}) *
+         glm::angleAxis(Radians(share * bend.pitch), Vec3{1.0, 0.0, 0.0}) *
+         glm::angleAxis(Radians(-share * bend.roll), Vec3{0.0, 0.0, 1.0});
+}
+
+Quat FromColumns(const Vec3& x, const Vec3& y) {
+  return glm::normalize(glm::quat_cast(Mat3(x, y, glm::cross(x, y))));
+}
+
+Vec3 Sided(const Vec3& v, std::size_t side) { return side == 0 ? v : Vec3{-v.x, v.y, v.z}; }
+
+/// The part of v across the unit direction n, unit; `fallback` if there is none.
+Vec3 Across(const Vec3& v, const Vec3& n, const Vec3& fallback) {
+  Vec3 across = v - n * glm::dot(v, n);
+  if (glm::length(across) < 1e-6) across = fallback - n * glm::dot(fallback, n);
+  return glm::normalize(across);
+}
+
+struct TwoBones {
+  Vec3 upper;  // unit directions
+  Vec3 lower;
+  Vec3 axis;  // of flexion, unit
+};
+
+/// Bones from `start` to `end` (or as far as they reach), the middle joint on the side of `pole`.
+TwoBones Reach(const Vec3& start, const Vec3& end, const Vec3& pole, double upper, double lower) {
+  const Vec3 to = end - start;
+  const double shortest = std::abs(upper - lower) + 0.02 * (upper + lower);
+  const double distance = std::clamp(glm::length(to), shortest, 0.9995 * (upper + lower));
+  const Vec3 d = glm::normalize(to);
+  const Vec3 b = Across(pole, d, Vec3{0.0, 0.0, 1.0});
+  const double along = (distance * distance + upper * upper - lower * lower) / (2.0 * distance);
+  const Vec3 middle = along * d + std::sqrt(std::max(0.0, upper * upper - along * along)) * b;
+  return {glm::normalize(middle), glm::normalize(distance * d - middle),
+          glm::normalize(glm::cross(b, d))};
+}
+
+}  // namespace
+
+PostureSolver::PostureSolver(const Body& body)
+    : body_(body), canonical_(CanonicalPositions(body.skeleton)) {}
+
+SkinPoint PostureSolver::Posed(const SkinPoint& skin, const ModelPose& pose) const {
+  SkinPoint posed = skin;
+  posed.position_ms = Vec3(0.0);
+  posed.normal_ms = Vec3(0.0);
+  const Attachment& a = skin.attachment;
+  for (std::size_t k = 0; k < a.joint.size(); ++k) {
+    posed.position_ms += a.weight[k] * PosePoint(canonical_, pose, a.joint[k], skin.position_ms);
+    posed.normal_ms += a.weight[k] * (pose.Rotation(a.joint[k]) * skin.normal_ms);
+  }
+  posed.normal_ms = glm::normalize(posed.normal_ms);
+  return posed;
+}
+
+PostureSolver::HandFrame PostureSolver::FrameOf(const HandGoal& goal, std::size_t side,
+                                                const ModelPose& pose) const {
+  const Quat& chest = pose.Rotation(J::kUpperChest);
+  const J hand = side == 0 ? J::kLeftHand : J::kRightHand;
+  Vec3 target;
+  Vec3 palm;
+  Vec3 fingers;
+  if (goal.touches) {
+    const SkinPoint skin = Posed(goal.skin, pose);
+    target = skin.position_ms + goal.lift * skin.normal_ms;
+    palm = -skin.normal_ms;
+    Vec3 carried{0.0};
+    const Attachment& a = goal.skin.attachment;
+    for (std::size_t k = 0; k < a.joint.size(); ++k) {
+      carried += a.weight[k] * (pose.Rotation(a.joint[k]) * Sided(goal.fingers, side));
+    }
+    fingers = Across(carried, palm, chest * kUp);
+    const double tilt = Radians(goal.tilt);
+    const Vec3 raised = std::cos(tilt) * fingers - std::sin(tilt) * palm;
+    palm = std::cos(tilt) * palm + std::sin(tilt) * fingers;
+    fingers = raised;
+  } else {
+    const J shoulder = side == 0 ? J::kLeftUpperArm : J::kRightUpperArm;
+    target = pose.Position(shoulder) + chest * Sided(goal.position, side);
+    palm = glm::normalize(chest * Sided(goal.palm, side));
+    fingers = Across(chest * Sided(goal.fingers, side), palm, chest * kUp);
+  }
+  HandFrame frame;
+  frame.rotation = FromColumns(side == 0 ? fingers : -fingers, -palm);
+  const HandSurface& surface = body_.surface.hand[side];
+  const Vec3& placed = goal.fingertip ? surface.fingertip_ms : surface.palm_ms;
+  frame.wrist = target - frame.rotation * (placed - canonical_[Index(hand)]);
+  frame.elbow = chest * Sided(goal.elbow, side);
+  return frame;
+}
+
+void PostureSolver::PlaceArm(std::size_t side, const HandFrame& frame, Pose& pose) const {
+  const LimbJoints arm = JointsOf(side == 0 ? Limb::kLeftArm : Limb::kRightArm);
+  const ModelPose model = ForwardKinematics(body_.skeleton, pose);
+  const TwoBones bones =
+      Reach(model.Position(arm.base), frame.wrist, frame.elbow, BoneLength(body_.skeleton, arm.mid),
+            BoneLength(body_.skeleton, arm.end));
+  const double out = side == 0 ? 1.0 : -1.0;
+  const Quat upper = FromColumns(out * bones.upper, -out * bones.axis);
+  Quat lower = FromColumns(out * bones.lower, -out * bones.axis);
+  // Half of the turn about the forearm happens along the forearm, as radius and ulna do.
+  Quat relative = glm::conjugate(lower) * frame.rotation;
+  if (relative.w < 0.0) relative = -relative;
+  const double turn = 2.0 * std::atan2(relative.x, relative.w);
+  lower = lower * glm::angleAxis(0.5 * turn, Vec3{1.0, 0.0, 0.0});
+  const Quat parent = model.Rotation(Parent(arm.base));
+  pose.rotation_ls[Index(arm.base)] = glm::conjugate(parent) * upper;
+  pose.rotation_ls[Index(arm.mid)] = glm::conjugate(upper) * lower;
+  pose.rotation_ls[Index(arm.end)] = glm::conjugate(lower) * frame.rotation;
+}
+
+void PostureSolver::PlaceLeg(std::size_t side, const FootGoal& goal, double yaw, Pose& pose) const {
+  const LimbJoints leg = JointsOf(side == 0 ? Limb::kLeftLeg : Limb::kRightLeg);
+  const J toes = side == 0 ? J::kLeftToes : J::kRightToes;
+  const Quat turn = glm::angleAxis(Radians(yaw + (side == 0 ? 6.0 : -6.0)), kUp);
+  const Quat heel = glm::angleAxis(Radians(goal.heel_up), Vec3{1.0, 0.0, 0.0});
+  // The foot turns about its toes, which stay on the ground when only the heel rises.
+  const Vec3 ankle = canonical_[Index(leg.end)];
+  const Vec3 pivot = canonical_[Index(toes)] * Vec3{1.0, 0.0, 1.0};
+  const Vec3 planted = Vec3{ankle.x, 0.0, ankle.z} + turn * (pivot - Vec3{ankle.x, 0.0, ankle.z});
+  const Quat foot = turn * heel;
+  const Vec3 target = planted + goal.offset + foot * (ankle - pivot);
+  const ModelPose model = ForwardKinematics(body_.skeleton, pose);
+  const TwoBones bones =
+      Reach(model.Position(leg.base), target, turn * Vec3{0.0, 0.0, 1.0},
+            BoneLength(body_.skeleton, leg.mid), BoneLength(body_.skeleton, leg.end));
+  const Quat upper = FromColumns(bones.axis, -bones.upper);
+  const Quat lower = FromColumns(bones.axis, -bones.lower);
+  const Quat parent = model.Rotation(Parent(leg.base));
+  pose.rotation_ls[Index(leg.base)] = glm::conjugate(parent) * upper;
+  pose.rotation_ls[Index(leg.mid)] = glm::conjugate(upper) * lower;
+  pose.rotation_ls[Index(leg.end)] = glm::conjugate(lower) * foot;
+  pose.rotation_ls[Index(toes)] = goal.offset.y > 1e-9 ? kIdentity : glm::conjugate(heel);
+}
+
+Pose PostureSolver::Solve(const Posture& from, const Posture& to, double share) const {
+  Pose pose = CanonicalPose(body_.skeleton);
+  pose.root_ws += glm::mix(from.root, to.root, share);
+  pose.rotation_ls[Index(J::kHips)] = Rotation(Mix(from.pelvis, to.pelvis, share), 1.0);
+  const Bend spine = Mix(from.spine, to.spine, share);
+  for (const J joint : {J::kSpine, J::kChest, J::kUpperChest}) {
+    pose.rotation_ls[Index(joint)] = Rotation(spine, 1.0 / 3.0);
+  }
+  const Bend head = Mix(from.head, to.head, share);
+  pose.rotation_ls[Index(J::kNeck)] = Rotation(head, 0.4);
+  pose.rotation_ls[Index(J::kHead)] = Rotation(head, 0.6);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double shrug = Mix(from.shrug[side], to.shrug[side], share) * (side == 0 ? 1.0 : -1.0);
+    pose.rotation_ls[Index(side == 0 ? J::kLeftShoulder : J::kRightShoulder)] =
+        glm::angleAxis(Radians(shrug), Vec3{0.0, 0.0, 1.0});
+    const FootGoal& a = from.foot[side];
+    const FootGoal& b = to.foot[side];
+    PlaceLeg(side, {glm::mix(a.offset, b.offset, share), Mix(a.heel_up, b.heel_up, share)}, 0.0,
+             pose);
+  }
+
+  const bool left_last = from.hand[0].after_other || to.hand[0].after_other;
+  for (const std::size_t side :
+       {left_last ? std::size_t{1} : std::size_t{0}, left_last ? std::size_t{0} : std::size_t{1}}) {
+    const ModelPose model = ForwardKinematics(body_.skeleton, pose);
+    const HandFrame a = FrameOf(from.hand[side], side, model);
+    const HandFrame b = FrameOf(to.hand[side], side, model);
+    HandFrame frame;
+    frame.wrist = glm::mix(a.wrist, b.wrist, share);
+    const Vec3 chest = model.Position(J::kChest);
+    const Vec3 out = frame.wrist - chest;
+    const double arc = 4.0 * share * (1.0 - share) * 0.22 * glm::distance(a.wrist, b.wrist);
+    frame.wrist += arc * Across(out, model.Rotation(J::kChest) * kUp, Vec3{0.0, 0.0, 1.0});
+    frame.rotation = glm::slerp(a.rotation, b.rotation, share);
+    frame.elbow = glm::mix(glm::normalize(a.elbow), glm::normalize(b.elbow), share);
+    PlaceArm(side, frame, pose);
+  }
+  for (Quat& q : pose.rotation_ls) {
+    q = glm::normalize(q);
+    if (q.w < 0.0) q = -q;
+  }
+  return pose;
+}
+
+FigureSurface SurfaceOf(const Character& character) {
+  FigureSurface surface;
+  for (const MeshPart& part : character.parts) {
+    const auto base = static_cast<std::uint32_t>(surface.position_ms.size());
+    for (std::size_t v = 0; v < part.positions.size(); ++v) {
+      surface.position_ms.emplace_back(part.positions[v]);
+      JointWeights weights{};
+      for (std::size_t k = 0; k < MeshPart::kInfluences; ++k) {
+        const int node = character.palette[part.influences[v].entry[k]].node;
+        weights[Index(character.rig.driver[static_cast<std::size_t>(node)])] +=
+            static_cast<double>(part.influences[v].weight[k]);
+      }
+      surface.attachment.push_back(StrongestFour(weights));
+    }
+    for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
+      surface.triangles.push_back(
+          {base + part.triangles[t], base + part.triangles[t + 1], base + part.triangles[t + 2]});
+    }
+  }
+  return surface;
+}
+
+}  // namespace ego
