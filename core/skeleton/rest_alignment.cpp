@@ -229,7 +229,7 @@ BodyFrame FindBodyFrame(const std::array<Vec3, kJointCount>& p) {
   const auto between = [&](J a, J b) { return 0.5 * (at(a) + at(b)); };
   const Vec3 trunk = UnitOrZero(at(J::kHead) - at(J::kHips));
   const Vec3 legs = UnitOrZero(between(J::kLeftUpperLeg, J::kRightUpperLeg) -
-                               between(J::kLeftLowerLeg, J::kRightLowerLeg));
+                               between(J::kLeftFoot, J::kRightFoot));
   if (trunk == Vec3(0.0)) return {};
   Vec3 up = trunk;
   double best = -1.0;

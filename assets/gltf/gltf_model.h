@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "assets/gltf/gltf_document.h"
+#include "core/base/result.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace ego {
+
+struct DeleteModel {
+  void operator()(tinygltf::Model* model) const;
+};
+using ModelPtr = std::unique_ptr<tinygltf::Model, DeleteModel>;
+
+/// Parses a document with tinygltf. Touches no file. Images that cannot be decoded, or are larger
+/// than 64 megapixels, come out empty. Error: the sentence of the parser, with the file's name.
+Result<ModelPtr> ParseModel(const GltfDocument& document);
+
+}  // namespace ego
