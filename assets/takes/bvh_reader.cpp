@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t kMostJoints = 10000;
 constexpr std::size_t kDeepest = 500;
 constexpr std::size_t kMostChannels = 12;  // of one joint
+constexpr double kLargest = 1e9;           // of any length or angle: beyond it is no motion
 
 enum class Channel : std::uint8_t {
   kXposition,
@@ -106,7 +107,9 @@ class Parser {
     const std::string_view word = words_.Next();
     const std::optional<double> number = ReadNumber(word);
     if (!number) return Expected(what, word);
-    if (!std::isfinite(*number)) return At(std::string(what) + " is not a finite number");
+    if (!(std::abs(*number) <= kLargest * kLargest)) {
+      return At(std::string(what) + " is not a finite number");
+    }
     return *number;
   }
 
@@ -115,6 +118,7 @@ class Parser {
     for (int axis = 0; axis < 3; ++axis) {
       const Result<double> number = Number("a number of an OFFSET");
       if (!number) return Error{number.error()};
+      if (std::abs(*number) > kLargest) return At("an OFFSET is too large for a body");
       offset[axis] = *number;
     }
     return offset;
@@ -290,7 +294,7 @@ class Parser {
         return Error{"is cut off: it ends in frame " + std::to_string(frame + 1) + " of " +
                      std::to_string(motion_.frame_count)};
       }
-      if (!value || !std::isfinite(*value)) {
+      if (!value || !(std::abs(*value) <= kLargest)) {
         return Error{"frame " + std::to_string(frame + 1) + ", joint " +
                      Quoted(motion_.tree.joints[joint].name) + ": " + Quoted(word) +
                      " stands where a number is expected"};

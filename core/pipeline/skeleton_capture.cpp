@@ -98,6 +98,30 @@ double DistanceFromTPose(const HumanoidMap& map, std::span<const Mat4> global) {
   return std::isfinite(distance) ? distance : kNone;
 }
 
+/// The tree with the joints at the distances that they keep in the motion: some files move every
+/// joint by channels of its own and have offsets that mean nothing.
+JointTree WithMotionOffsets(const JointMotion& motion) {
+  constexpr std::size_t kSampledFrames = 100;
+  constexpr double kSame = 1e-3;  // relative
+  JointTree tree = motion.tree;
+  const std::size_t n = tree.joints.size();
+  const std::size_t step = std::max<std::size_t>(1, motion.frame_count / kSampledFrames);
+  for (std::size_t j = 0; j < n; ++j) {
+    if (tree.joints[j].parent < 0) continue;
+    Vec3 sum{0.0};
+    double count = 0.0;
+    for (std::size_t f = 0; f < motion.frame_count; f += step, count += 1.0) {
+      sum += motion.translation_ls[f * n + j];
+    }
+    const Vec3 mean = sum / count;
+    const Vec3 offset(tree.joints[j].rest_local[3]);
+    if (glm::length(mean - offset) > kSame * glm::length(mean)) {
+      tree.joints[j].rest_local[3] = Vec4(mean, 1.0);
+    }
+  }
+  return tree;
+}
+
 /// The tree with a frame of the motion as its rest pose.
 JointTree RestingIn(const JointMotion& motion, std::size_t frame) {
   JointTree tree = motion.tree;
@@ -119,8 +143,9 @@ struct RestPose {
 /// Maps the joints in the zero pose, else in the first frame that shows a person.
 Result<RestPose> FindHumanoid(const JointMotion& motion) {
   constexpr std::size_t kTries = 8;
-  Result<HumanoidMap> map = MapHumanoid(motion.tree);
-  if (map) return RestPose{motion.tree, *std::move(map), motion.tree.RestGlobal()};
+  const JointTree zero = WithMotionOffsets(motion);
+  Result<HumanoidMap> map = MapHumanoid(zero);
+  if (map) return RestPose{zero, *std::move(map), zero.RestGlobal()};
   for (std::size_t k = 0; k < kTries; ++k) {
     JointTree tree = RestingIn(motion, k * (motion.frame_count - 1) / (kTries - 1));
     if (Result<HumanoidMap> other = MapHumanoid(tree)) {
@@ -154,9 +179,9 @@ void ImproveRestPose(const JointMotion& motion, RestPose& rest, std::vector<std:
   if (Result<HumanoidMap> map = MapHumanoid(rest.tree)) rest.map = *std::move(map);
 }
 
-/// Metres per file unit from the length of the legs.
-double ChooseUnit(const HumanoidMap& map, std::span<const Mat4> rest,
-                  std::vector<std::string>& notes) {
+/// Metres per file unit from the length of the legs; nothing when they have none.
+std::optional<double> ChooseUnit(const HumanoidMap& map, std::span<const Mat4> rest,
+                                 std::vector<std::string>& notes) {
   struct Unit {
     const char* name;
     double metres;
@@ -176,6 +201,7 @@ double ChooseUnit(const HumanoidMap& map, std::span<const Mat4> rest,
     leg += 0.5 * (upper + lower);
   }
   const double height = leg / kLegShare;  // file units
+  if (!(height > 1e-9 && height < 1e12)) return std::nullopt;
   const Unit* best = nullptr;
   const auto strangeness = [&](const Unit& unit) {
     return std::abs(std::log(height * unit.metres / kUsualHeight));
@@ -187,7 +213,7 @@ double ChooseUnit(const HumanoidMap& map, std::span<const Mat4> rest,
   }
   if (best != nullptr) return best->metres;
   notes.push_back("the unit is not known; the person is taken to be 1.7 m tall");
-  return height > 0.0 && std::isfinite(height) ? kUsualHeight / height : 1.0;
+  return kUsualHeight / height;
 }
 
 /// A node of the rest pose in the canonical pose, carried by a joint, metres.
@@ -312,7 +338,9 @@ Result<CapturedMotion> CaptureFromJointMotion(const JointMotion& motion,
   const std::vector<Mat4>& rest = found->global;
   said.insert(said.end(), map.notes.begin(), map.notes.end());
 
-  Result<Alignment> alignment = AlignRestPose(found->tree, rest, map, ChooseUnit(map, rest, said));
+  const std::optional<double> metres_per_unit = ChooseUnit(map, rest, said);
+  if (!metres_per_unit) return Error{"the legs of the skeleton have no usable length"};
+  Result<Alignment> alignment = AlignRestPose(found->tree, rest, map, *metres_per_unit);
   if (!alignment) return Error{alignment.error()};
   const double first_guess =
       CanonicalPositions(alignment->skeleton)[Index(J::kHead)].y / kHeadJointShare;

@@ -144,6 +144,8 @@ TEST(Bvh, RefusesBadFilesWithOneSentence) {
             "bad.bvh: frame 1, joint \"Hips\": \"nan\" stands where a number is expected");
   EXPECT_EQ(sentence(kSmall + "10.25 20.25 30.25 0 0 0 0 90 0\n10 20 30 90"),
             "bad.bvh: is cut off: it ends in frame 2 of 2");
+  EXPECT_EQ(sentence(kSmall + "10 20 30 0 0 0 0 90 0\n10 20 30 90 0 0 0 0 9e30\n"),
+            "bad.bvh: frame 2, joint \"Left Leg\": \"9e30\" stands where a number is expected");
   const auto with_frames = [&](const std::string& count) {
     std::string text = kSmall + kNumbers;
     return text.replace(text.find("Frames: 2") + 8, 1, count);

@@ -9,6 +9,7 @@
 #include "assets/takes/bvh.h"
 #include "assets/takes/c3d.h"
 #include "assets/takes/trc.h"
+#include "core/pipeline/skeleton_capture.h"
 #include "tests/support/take_laws.h"
 
 namespace ego {
@@ -44,9 +45,12 @@ TEST(FuzzCorpus, HoldsTheLawsOfTrc) {
 }
 
 TEST(FuzzCorpus, HoldsTheLawsOfBvh) {
-  EXPECT_GE(
-      Replay("bvh", [](auto bytes) { test::CheckMotion(ParseBvh(Text(bytes), "x.bvh"), "x.bvh"); }),
-      3u);
+  const auto read = [](auto bytes) {
+    const Result<JointMotion> motion = ParseBvh(Text(bytes), "x.bvh");
+    test::CheckMotion(motion, "x.bvh");
+    if (motion) test::CheckCapture(CaptureFromJointMotion(*motion), *motion);
+  };
+  EXPECT_GE(Replay("bvh", read), 4u);
 }
 
 }  // namespace

@@ -172,6 +172,14 @@ TEST(SkeletonCapture, TakesAFrameWhereTheZeroRotationIsNoPose) {
   EXPECT_FALSE(notes.empty());
 }
 
+TEST(SkeletonCapture, BelievesPositionChannelsMoreThanOffsets) {
+  const Skeleton skeleton = TemplateSkeleton(1.7);
+  const std::vector<Pose> poses = SomeMotion(skeleton);
+  JointMotion file = AsFile(skeleton, poses, {});
+  for (JointTree::Joint& joint : file.tree.joints) joint.rest_local = Mat4{1.0};
+  ExpectCaptured(file, skeleton, poses);
+}
+
 TEST(SkeletonCapture, RefusesTreesWithoutAPerson) {
   JointMotion motion;
   EXPECT_FALSE(CaptureFromJointMotion(motion));

@@ -59,4 +59,15 @@ void CheckMotion(const Result<JointMotion>& motion, std::string_view file) {
   }
 }
 
+void CheckCapture(const Result<CapturedMotion>& captured, const JointMotion& motion) {
+  if (!captured) return CheckSentence(captured.error(), "");
+  EGO_CHECK(captured->poses.size() == motion.frame_count);
+  EGO_CHECK(captured->performer.height > 0.1 && captured->performer.height < 10.0);
+  for (const Vec3& sample : captured->performer.surface.sample_ms) EGO_CHECK(IsFinite(sample));
+  for (const Pose& pose : captured->poses) {
+    EGO_CHECK(IsFinite(pose.root_ws));
+    for (const Quat& q : pose.rotation_ls) EGO_CHECK(std::abs(glm::length(q) - 1.0) < 1e-9);
+  }
+}
+
 }  // namespace ego::test

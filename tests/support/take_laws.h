@@ -5,6 +5,7 @@
 
 #include "core/base/result.h"
 #include "core/markers/marker_take.h"
+#include "core/pipeline/captured_motion.h"
 #include "core/skeleton/joint_tree.h"
 
 namespace ego::test {
@@ -14,5 +15,7 @@ namespace ego::test {
 /// for fuzzers and for the replay of their corpora.
 void CheckTake(const Result<MarkerTake>& take, std::string_view file);
 void CheckMotion(const Result<JointMotion>& motion, std::string_view file);
+/// The same for what becomes of a motion that was read: a sentence, or poses that are finite.
+void CheckCapture(const Result<CapturedMotion>& captured, const JointMotion& motion);
 
 }  // namespace ego::test
