@@ -158,14 +158,9 @@ Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
   const Vec3 sole{root.x + h_root * relation.offset.x, h_root * relation.gap,
                   root.z + h_root * relation.offset.y};
   if (!state.egocentric.form.sole_contact) return sole;
-  const FootSurface& foot = state.avatar.surface.foot[IsLeft(leg) ? 0 : 1];
-  const Quat& rotation = state.extremity_ws[Index(leg)];
-  const Vec3& rest = state.constants.canonical[Index(JointsOf(leg).end)];
-  const Vec3 heel = rotation * (foot.heel_ms - rest);
-  const Vec3 ball = rotation * (foot.ball_ms - rest);
-  Vec3 offset = glm::mix(heel, ball, relation.on_ball);
-  offset.y = std::min(heel.y, ball.y);
-  return sole - offset;
+  const SoleOffset offset = MeasureSole(state.avatar, state.constants, leg,
+                                        state.extremity_ws[Index(leg)], relation.on_ball);
+  return sole - Vec3{offset.middle.x, offset.low, offset.middle.z};
 }
 
 void SumBody(AdaptState& state) {

@@ -26,11 +26,14 @@ double Trust(double length, double scale) {
   return l2 / (l2 + scale * scale);
 }
 
-/// The signed angle to flex to for an unsigned `required` one: an over-stretched limb stays on its
-/// side while little change is asked, and flexes the right way round beyond.
+/// The signed angle to flex to for an unsigned `required` one. A limb that was captured
+/// over-stretched stays on that side while no more bend is asked than it had, and turns to flexing
+/// the right way round within some ten degrees beyond; continuous also where the captured angle
+/// passes through zero.
 double Signed(double required, double captured) {
   if (captured >= 0.0) return required;
-  const double beyond = std::max(0.0, required + captured) / Radians(10.0);
+  if (required <= -captured) return -required;
+  const double beyond = (required + captured) / Radians(10.0);
   return required + 2.0 * captured / (1.0 + beyond * beyond);
 }
 
@@ -42,7 +45,7 @@ Quat FlexTo(const LimbChain& chain, const Quat& mid, double cosine) {
   const double limit = std::max(kMaxFlexion, chain.captured_flexion);
   const double required =
       std::min(limit, std::acos(std::clamp(cosine / flexion.in_plane, -1.0, 1.0)));
-  const double angle = Signed(required, flexion.angle);
+  const double angle = Signed(required, chain.captured_flexion);
   return glm::normalize(glm::angleAxis(angle - flexion.angle, flexion.axis_ls) * mid);
 }
 

@@ -85,23 +85,18 @@ void RelateToCapsule(const Context& context, const PosedCapsule& capsule, Humano
   relation.importance = importance.Of(reach - capsule.radius - own, 1.0);
 }
 
-/// Height of the foot's lowest point over its ankle (negative), and which end it stands on.
 GroundRelation RelateToGround(const Context& context, LimbPoint j, Importance& importance) {
-  const std::size_t side = IsLeft(LimbOf(j)) ? 0 : 1;
   const double h_root = context.body.standing_root_height;
   const Vec3& ankle = context.posed.point[Index(j)];
   const Vec3& root = context.posed.pose.position_ws[0];
   GroundRelation relation;
   Vec3 sole = ankle;
   if (context.settings.form.sole_contact) {
-    const FootSurface& foot = context.body.surface.foot[side];
-    const Quat& rotation = context.posed.pose.Rotation(JointOf(j));
-    const Vec3& rest = context.constants.canonical[Index(JointOf(j))];
-    const Vec3 heel = ankle + rotation * (foot.heel_ms - rest);
-    const Vec3 ball = ankle + rotation * (foot.ball_ms - rest);
-    relation.on_ball = Smoothstep(0.5 + (heel.y - ball.y) / (0.08 * context.body.height));
-    sole = glm::mix(heel, ball, relation.on_ball);
-    sole.y = std::min(heel.y, ball.y);
+    const Quat& foot = context.posed.pose.Rotation(JointOf(j));
+    relation.on_ball = StandsOnBall(context.body, LimbOf(j), foot);
+    const SoleOffset offset =
+        MeasureSole(context.body, context.constants, LimbOf(j), foot, relation.on_ball);
+    sole = {ankle.x + offset.middle.x, ankle.y + offset.low, ankle.z + offset.middle.z};
   }
   relation.offset = Vec2{sole.x - root.x, sole.z - root.z} / h_root;
   relation.gap = sole.y / h_root;

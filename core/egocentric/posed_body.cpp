@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/egocentric/posed_body.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/geometry/rotation.h"
+#include "core/geometry/smooth.h"
 
 namespace ego {
 namespace {
@@ -74,6 +78,27 @@ BodyConstants::BodyConstants(const Body& body) : canonical(CanonicalPositions(bo
   for (std::size_t p = 0; p < kLimbPointCount; ++p) {
     thickness[p] = Thickness(body, static_cast<LimbPoint>(p));
   }
+}
+
+double StandsOnBall(const Body& body, Limb leg, const Quat& foot_ws) {
+  const FootSurface& foot = body.surface.foot[IsLeft(leg) ? 0 : 1];
+  const double drop = (foot_ws * (foot.heel_ms - foot.ball_ms)).y;
+  return Smoothstep(0.5 + drop / (0.08 * body.height));
+}
+
+SoleOffset MeasureSole(const Body& body, const BodyConstants& constants, Limb leg,
+                       const Quat& foot_ws, double on_ball) {
+  const FootSurface& foot = body.surface.foot[IsLeft(leg) ? 0 : 1];
+  const Vec3& ankle = constants.canonical[Index(JointsOf(leg).end)];
+  const Vec3 heel = foot_ws * (foot.heel_ms - ankle);
+  const Vec3 ball = foot_ws * (foot.ball_ms - ankle);
+  const double length = glm::distance(foot.heel_ms, foot.ball_ms);
+  const Vec3 along{ball.x - heel.x, 0.0, ball.z - heel.z};
+  const double level = glm::length(along);
+  const Vec3 half = level > 1e-12 ? along * (0.5 * length / std::hypot(level, 0.1 * length)) *
+                                        std::hypot(1.0, 0.1)
+                                  : Vec3{0.0};
+  return {glm::mix(heel + half, ball - half, on_ball), std::min(heel.y, ball.y)};
 }
 
 void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed) {

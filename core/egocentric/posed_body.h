@@ -55,6 +55,20 @@ struct PosedBody {
 void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
                PosedBody& posed);
 
+/// A foot seen from its ankle: where the sole would be if it lay flat around whatever it stands on.
+struct SoleOffset {
+  Vec3 middle{0.0};  // from the ankle to the middle between heel and ball, world axes
+  double low = 0.0;  // height of the lowest of both over the ankle (negative), metres
+};
+/// The middle is taken from the heel where the foot stands on the heel (`on_ball` 0) and from the
+/// ball where it stands on the ball (1): the foot then rolls without sliding whatever its length.
+/// A foot that points straight down has no direction on the ground: the middle is then the heel's
+/// or ball's own place.
+SoleOffset MeasureSole(const Body& body, const BodyConstants& constants, Limb leg,
+                       const Quat& foot_ws, double on_ball);
+/// What a foot stands on, by how far it is pitched: 0 heel, 0.5 flat, 1 ball.
+double StandsOnBall(const Body& body, Limb leg, const Quat& foot_ws);
+
 /// The triangles and their frames again, from joints already in `posed.pose`.
 void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed);
 
