@@ -13,7 +13,7 @@ namespace {
 using J = HumanoidJoint;
 
 constexpr Vec3 kDown{0.0, -1.0, 0.0};
-constexpr double kPalmShare = 0.46;  // of the hand's length, from the wrist
+constexpr double kPalmShare = 0.42;  // of the hand's length, from the wrist
 
 struct Range {
   double low = 1e300;

@@ -53,6 +53,7 @@ class HeadProposer {
   void FindCrown();
   void FindChin();
   void FindNose();
+  void FindThroat();
   double Y(double share) const { return chin_.y + share * (crown_.y - chin_.y); }
   double Height() const { return crown_.y - chin_.y; }
   std::optional<SkinHit> Cast(const Vec3& origin, const Vec3& direction, double* agreement) const;
@@ -180,6 +181,23 @@ void HeadProposer::FindNose() {
                      stands_out ? "" : "no nose stands out of the face");
 }
 
+/// Under the chin, half-way back to the middle of the head; where the neck is in the way, the
+/// nearest skin to where that would be.
+void HeadProposer::FindThroat() {
+  const double z = glm::mix(centre_.z, chin_.z, 0.45);
+  double agreement = 0.0;
+  const auto under =
+      draft_.probe.OutwardBundle(SkinRegion::kHeadAndNeck, {centre_.x, Y(0.16), z},
+                                 {0.0, -1.0, 0.0}, 0.1 * size_, 0.04 * size_, &agreement);
+  CalibrationPoint& throat = draft_.calibration.At(S::kThroat);
+  if (under && under->position_ms.y > Y(-0.3) && under->normal_ms.y < -0.2) {
+    ProposalDraft::Put(throat, *under, 0.55 + 0.35 * agreement, "");
+    return;
+  }
+  const auto hit = draft_.probe.Nearest(SkinRegion::kHeadAndNeck, {centre_.x, Y(kThroatShare), z});
+  if (hit) ProposalDraft::Put(throat, *hit, 0.6, "");
+}
+
 void HeadProposer::Run() {
   if (draft_.probe.Faces(SkinRegion::kHead).empty()) {
     for (std::size_t i = kTrunkSampleCount; i < kSampleCount; ++i) {
@@ -203,11 +221,7 @@ void HeadProposer::Run() {
     Put(ear, at(kEarShare), {sign, 0.0, 0.0}, 1.0);
     Put(cheek, at(kCheekShare), glm::normalize(Vec3{sign * 0.055, 0.0, 0.08}), 1.0);
   }
-  // Where the underside of the chin meets the neck: half-way down and back from the chin.
-  const double throat_z = glm::mix(draft_.probe.Joint(J::kHead).z, chin_.z, 0.35);
-  const auto throat =
-      draft_.probe.Nearest(SkinRegion::kHeadAndNeck, {centre_.x, Y(kThroatShare), throat_z});
-  if (throat) ProposalDraft::Put(draft_.calibration.At(S::kThroat), *throat, 0.7, "");
+  FindThroat();
 }
 
 }  // namespace

@@ -65,7 +65,10 @@ Section TrunkProposer::SectionAt(double y, SkinRegion region) const {
   Section section;
   section.front = spine.z + reach(spine, kForward, depth);
   section.back = spine.z - reach(spine, kBackward, depth);
-  section.middle = {spine.x, y, 0.5 * (section.front + section.back)};
+  // Sides are felt beside the spine, not beside the middle of a big belly.
+  section.middle = spine;
+  section.middle.z = std::clamp(spine.z, glm::mix(section.back, section.front, 0.3),
+                                glm::mix(section.back, section.front, 0.6));
   const double width = draft_.shoulder_half_width;
   section.half_width = 0.5 * (reach(section.middle, {1.0, 0.0, 0.0}, width) +
                               reach(section.middle, {-1.0, 0.0, 0.0}, width));
@@ -128,8 +131,8 @@ void TrunkProposer::Run() {
     CastPair(p, region, middle(p, region), {1.0, 0.0, 0.0});
   }
   const Section belly = SectionAt(height(S::kLeftBellySide), kTrunk);
-  CastPair(S::kLeftBellySide, kTrunk, belly.middle + Vec3{0.6 * belly.half_width, 0.0, 0.0},
-           kForward);
+  CastPair(S::kLeftBellySide, kTrunk, belly.middle,
+           glm::normalize(Vec3{0.72 * belly.half_width, 0.0, 0.45 * (belly.front - belly.back)}));
   const Section chest = SectionAt(height(S::kLeftChest), kTrunk);
   const double breast = 0.57 * draft_.shoulder_half_width;
   CastPair(S::kLeftChest, kTrunk, chest.middle + Vec3{breast, 0.0, 0.0}, kForward);

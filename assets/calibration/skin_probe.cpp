@@ -5,6 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "assets/calibration/closed_pieces.h"
+
 namespace ego {
 namespace {
 
@@ -52,7 +54,8 @@ SkinHit FromBvh(const MeshBvh::Hit& hit) {
 SkinProbe::SkinProbe(const Character& character)
     : character_(&character),
       mesh_(CanonicalMesh(character)),
-      joint_(CanonicalPositions(character.rig.skeleton)) {
+      joint_(CanonicalPositions(character.rig.skeleton)),
+      closed_(ClosedPieces(character, mesh_)) {
   std::vector<std::vector<Mask>> regions_of(character.parts.size());  // bit per region
   for (std::size_t p = 0; p < character.parts.size(); ++p) {
     const MeshPart& part = character.parts[p];
@@ -101,10 +104,17 @@ std::optional<SkinHit> SkinProbe::Outward(SkinRegion region, const Vec3& origin_
   const std::vector<MeshBvh::Hit> hits =
       bvh_[static_cast<std::size_t>(region)]->AllHits(origin_ms, direction, kFar);
   if (hits.empty()) return std::nullopt;
+  const auto sign_of = [&](const MeshBvh::Hit& hit) {
+    return closed_[static_cast<std::size_t>(hit.place.part)][hit.place.triangle];
+  };
   std::size_t at = 0;
   bool loose = false;
   for (std::size_t i = 1; i < hits.size(); ++i) {
-    const bool inside = glm::dot(hits[i - 1].normal_ws, direction) < 0.0;
+    const double entered =
+        glm::dot(hits[i - 1].normal_ws, direction) * (sign_of(hits[i - 1]) < 0 ? -1.0 : 1.0);
+    const double leaves = glm::dot(hits[i].normal_ws, direction) * sign_of(hits[i]);
+    // Between a way in and a way out of a closed piece there is no gap, only its inside.
+    const bool inside = entered < 0.0 || leaves > 0.0;
     if (!inside && hits[i].distance - hits[i - 1].distance > gap) {
       loose = true;
       break;

@@ -79,6 +79,7 @@ class SkinProbe {
   const Character* character_;
   PosedMesh mesh_;
   std::array<Vec3, kJointCount> joint_;
+  std::vector<std::vector<std::int8_t>> closed_;  // see ClosedPieces
   std::array<std::vector<Face>, kSkinRegionCount> faces_;
   std::array<std::unique_ptr<MeshBvh>, kSkinRegionCount> bvh_;
   std::unique_ptr<MeshBvh> all_;
