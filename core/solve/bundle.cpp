@@ -129,7 +129,7 @@ class Adjuster {
     const MarkerModel model = ModelOf(bundle);
     double cost = SharedPriorCost(bundle);
     for (std::size_t f = 0; f < frames_; ++f) {
-      cost += PriorCost(bundle.postures[f], {}) +
+      cost += PriorCost(bundle.postures[f], options_.priors) +
               MarkerCost(model, bundle.frames[f], Placed(model.skeleton, bundle.postures[f]),
                          options_.loss);
     }
@@ -212,7 +212,7 @@ class Adjuster {
       const Posture& posture = bundle_.postures[f];
       const MarkerFrame& frame = bundle_.frames[f];
       const ModelPose pose = Placed(model.skeleton, posture);
-      cost += AddPriors(posture, {}, equations) +
+      cost += AddPriors(posture, options_.priors, equations) +
               AddMarkers(model, frame, pose, options_.loss, equations);
       DofAxes(pose, axis_ws);
       for (std::size_t m = 0; m < model.markers.size(); ++m) {

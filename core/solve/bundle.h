@@ -32,6 +32,7 @@ struct Bundle {
 
 struct BundleOptions {
   MarkerLoss loss;
+  Priors priors;  // of each posture
   double symmetry_sigma = 0.002;
   double offset_sigma_scale = 1.0;
   int max_iterations = 10;

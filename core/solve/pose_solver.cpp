@@ -24,13 +24,13 @@ struct Problem {
   const MarkerModel& model;
   const MarkerFrame& frame;
   MarkerLoss loss;
-  Previous previous;
+  Priors priors;
 };
 
 double Cost(const Problem& problem, const Posture& posture) {
-  return PriorCost(posture, problem.previous) + MarkerCost(problem.model, problem.frame,
-                                                           Placed(problem.model.skeleton, posture),
-                                                           problem.loss);
+  return PriorCost(posture, problem.priors) + MarkerCost(problem.model, problem.frame,
+                                                         Placed(problem.model.skeleton, posture),
+                                                         problem.loss);
 }
 
 void LimitStep(std::array<double, kPoseDof>& step) {
@@ -65,7 +65,7 @@ Descent Minimise(const Problem& problem, int max_iterations, Posture& posture) {
       equations.h.fill(0.0);
       equations.g.fill(0.0);
       const ModelPose pose = Placed(problem.model.skeleton, posture);
-      descent.cost = AddPriors(posture, problem.previous, equations) +
+      descent.cost = AddPriors(posture, problem.priors, equations) +
                      AddMarkers(problem.model, problem.frame, pose, problem.loss, equations);
       linear = true;
     }
@@ -135,7 +135,8 @@ PoseSolverReport PoseSolver::Solve(const MarkerFrame& frame, State& state) const
   const Posture previous = PostureFromPose(state.pose);
   Problem problem{model_, frame, {options_.sigma, options_.outlier_factor}, {}};
   if (options_.step_per_frame > 0.0) {
-    problem.previous = {&previous, options_.step_per_frame, Previous{}.root_sigma};
+    problem.priors.previous = &previous;
+    problem.priors.rotation_sigma = options_.step_per_frame;
   }
   Posture posture = previous;
   const Descent descent = Minimise(problem, options_.max_iterations, posture);

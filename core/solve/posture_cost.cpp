@@ -21,7 +21,7 @@ constexpr Vec3 BallSigmaDegrees(J joint) {
       return {20.0, 20.0, 20.0};
     case J::kLeftShoulder:
     case J::kRightShoulder:
-      return {3.0, 8.0, 8.0};  // x: about the clavicle itself
+      return {5.0, 20.0, 20.0};  // x: about the clavicle itself
     case J::kLeftHand:
     case J::kRightHand:
       return {4.0, 25.0, 25.0};  // x: the forearm turns, not the wrist
@@ -34,6 +34,11 @@ constexpr Vec3 BallSigmaDegrees(J joint) {
     default:
       return {90.0, 90.0, 90.0};  // thighs
   }
+}
+
+constexpr bool IsEnd(J joint) {
+  return joint == J::kNeck || joint == J::kHead || joint == J::kLeftHand ||
+         joint == J::kRightHand || joint == J::kLeftFoot || joint == J::kRightFoot;
 }
 
 constexpr double kNeutralElbow = Radians(15.0);
@@ -59,22 +64,22 @@ struct ScalarTerm {
   }
 };
 
-ScalarTerm FlexionTerm(Limb limb, double angle, const Previous& previous) {
+ScalarTerm FlexionTerm(Limb limb, double angle, const Priors& priors) {
   ScalarTerm term;
   term.Add(angle - (IsArm(limb) ? kNeutralElbow : kNeutralKnee), kFlexionSigma);
   if (angle < kMinFlexion) term.Add(angle - kMinFlexion, kLimitSigma);
   if (angle > kMaxFlexion) term.Add(angle - kMaxFlexion, kLimitSigma);
-  if (previous.posture != nullptr) {
-    term.Add(angle - previous.posture->flexion[Index(limb)], previous.rotation_sigma);
+  if (priors.previous != nullptr) {
+    term.Add(angle - priors.previous->flexion[Index(limb)], priors.rotation_sigma);
   }
   return term;
 }
 
-ScalarTerm AxialTerm(Limb limb, double angle, const Previous& previous) {
+ScalarTerm AxialTerm(Limb limb, double angle, const Priors& priors) {
   ScalarTerm term;
   term.Add(angle, IsArm(limb) ? kPronationSigma : kKneeAxialSigma);
-  if (previous.posture != nullptr) {
-    term.Add(angle - previous.posture->axial[Index(limb)], previous.rotation_sigma);
+  if (priors.previous != nullptr) {
+    term.Add(angle - priors.previous->axial[Index(limb)], priors.rotation_sigma);
   }
   return term;
 }
@@ -104,38 +109,39 @@ double BallTerm(const Quat& from, const Quat& to, const Vec3& sigma, std::size_t
   return 0.5 * glm::dot(weight * v, v);
 }
 
-double Priors(const Posture& posture, const Previous& previous, NormalEquations* equations) {
+double AllPriors(const Posture& posture, const Priors& priors, NormalEquations* equations) {
   double cost = 0.0;
   const Posture& neutral = NeutralPosture();
-  const Vec3 step_sigma{previous.rotation_sigma};
+  const Vec3 step_sigma{priors.rotation_sigma};
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const auto joint = static_cast<J>(j);
     const DofRange range = DofsOf(joint);
     if (range.count != 3) continue;
     if (joint != J::kHips) {
-      const Vec3 sigma = BallSigmaDegrees(joint) * Radians(1.0);
+      const double spread = IsEnd(joint) ? priors.end_spread : 1.0;
+      const Vec3 sigma = BallSigmaDegrees(joint) * Radians(spread);
       cost +=
           BallTerm(neutral.rotation_ls[j], posture.rotation_ls[j], sigma, range.first, equations);
     }
-    if (previous.posture != nullptr) {
-      cost += BallTerm(previous.posture->rotation_ls[j], posture.rotation_ls[j], step_sigma,
+    if (priors.previous != nullptr) {
+      cost += BallTerm(priors.previous->rotation_ls[j], posture.rotation_ls[j], step_sigma,
                        range.first, equations);
     }
   }
   for (const Limb limb : kLimbs) {
     const DofRange range = DofsOf(JointsOf(limb).mid);
-    const ScalarTerm flexion = FlexionTerm(limb, posture.flexion[Index(limb)], previous);
-    const ScalarTerm axial = AxialTerm(limb, posture.axial[Index(limb)], previous);
+    const ScalarTerm flexion = FlexionTerm(limb, posture.flexion[Index(limb)], priors);
+    const ScalarTerm axial = AxialTerm(limb, posture.axial[Index(limb)], priors);
     cost += flexion.cost + axial.cost;
     if (equations == nullptr) continue;
     AddScalar(range.first, flexion, *equations);
     AddScalar(range.first + 1, axial, *equations);
   }
-  if (previous.posture != nullptr) {
-    const Vec3 shift = posture.root_ws - previous.posture->root_ws;
+  if (priors.previous != nullptr) {
+    const Vec3 shift = posture.root_ws - priors.previous->root_ws;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       ScalarTerm term;
-      term.Add(shift[static_cast<int>(axis)], previous.root_sigma);
+      term.Add(shift[static_cast<int>(axis)], priors.root_sigma);
       cost += term.cost;
       if (equations != nullptr) AddScalar(axis, term, *equations);
     }
@@ -155,12 +161,12 @@ double MarkerLoss::Weight(double squared_distance) const {
   return 1.0 / (variance + squared_distance / (outlier_factor * outlier_factor));
 }
 
-double PriorCost(const Posture& posture, const Previous& previous) {
-  return Priors(posture, previous, nullptr);
+double PriorCost(const Posture& posture, const Priors& priors) {
+  return AllPriors(posture, priors, nullptr);
 }
 
-double AddPriors(const Posture& posture, const Previous& previous, NormalEquations& equations) {
-  return Priors(posture, previous, &equations);
+double AddPriors(const Posture& posture, const Priors& priors, NormalEquations& equations) {
+  return AllPriors(posture, priors, &equations);
 }
 
 double MarkerCost(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose,

@@ -23,11 +23,14 @@ struct MarkerLoss {
   double Weight(double squared_distance) const;
 };
 
-/// Temporal prior: the posture of the frame before, and how far a joint may go from it.
-struct Previous {
-  const Posture* posture = nullptr;  // null: no such prior
-  double rotation_sigma = Radians(8.0);
-  double root_sigma = 0.05;
+/// What is known of a posture beforehand.
+struct Priors {
+  const Posture* previous = nullptr;     // of the frame before; null: no temporal prior
+  double rotation_sigma = Radians(8.0);  // how far a joint goes from it
+  double root_sigma = 0.05;              // metres
+  /// Widens the spread of wrists, ankles, neck and head about neutral. They are held for the sake
+  /// of frames that hardly show them; in the global fit that would pull joint centres along.
+  double end_spread = 1.0;
 };
 
 /// Normal equations of one posture: H step = -g. Lower triangle, row-major.
@@ -38,9 +41,9 @@ struct NormalEquations {
 
 /// Cost of the priors of a posture: what markers see badly stays near its neutral place, elbows
 /// and knees do not over-stretch, joints stay near the previous frame's.
-double PriorCost(const Posture& posture, const Previous& previous);
+double PriorCost(const Posture& posture, const Priors& priors);
 /// Adds the priors' part; returns PriorCost.
-double AddPriors(const Posture& posture, const Previous& previous, NormalEquations& equations);
+double AddPriors(const Posture& posture, const Priors& priors, NormalEquations& equations);
 
 /// Cost of the visible markers.
 double MarkerCost(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose,

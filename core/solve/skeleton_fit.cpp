@@ -23,6 +23,9 @@ constexpr std::size_t kCandidates = 120;
 constexpr std::size_t kMinVisible = 12;
 // Before the markers' places are known, they are this far off.
 constexpr double kTableSigma = 0.03;
+// Wrists and ankles are this much freer in the fit than in a frame: held tightly, they would pull
+// the estimated joint centres towards their markers.
+constexpr double kEndSpread = 3.0;
 
 /// A body outside these sizes is a wrong unit, not a performer: 0.55 m to 2.7 m of height.
 constexpr double kMinScale = 0.31;
@@ -242,6 +245,7 @@ Result<SkeletonFit> FitSkeleton(const MarkerTake& take, const MarkerSet& set,
     fit.frames.push_back(solved[i]);
   }
   BundleOptions stage;
+  stage.priors.end_spread = kEndSpread;
   stage.symmetry_sigma = options.symmetry_sigma;
   stage.offset_sigma_scale = options.offset_sigma_scale;
   constexpr std::array<std::pair<double, int>, 5> kStages = {
