@@ -15,7 +15,7 @@ namespace ego {
 namespace {
 
 // A step is converged below these; smaller ones change no picture.
-constexpr double kRotationTolerance = 2e-4;
+constexpr double kRotationTolerance = 4e-4;
 constexpr double kTranslationTolerance = 5e-5;
 // Longest step of any angle: beyond it the linear model means nothing.
 constexpr double kMaxTurn = 0.6;
@@ -52,6 +52,11 @@ struct Descent {
   int iterations = 0;
 };
 
+/// The loss of the last steps: half as steep at its shoulder, but ghosts lose all pull.
+MarkerLoss Final(const MarkerLoss& loss) {
+  return {loss.sigma, 2.0 * loss.outlier_factor, MarkerLoss::Kind::kGemanMcClure};
+}
+
 /// Levenberg-Marquardt from `posture`, which is left at the best place found.
 Descent Minimise(const Problem& problem, int max_iterations, Posture& posture) {
   Descent descent;
@@ -82,7 +87,7 @@ Descent Minimise(const Problem& problem, int max_iterations, Posture& posture) {
     const Posture candidate = Moved(posture, step);
     const double cost = Cost(problem, candidate);
     if (cost <= descent.cost) {  // false for NaN
-      const bool converged = IsSmall(step) || descent.cost - cost < 1e-7 * descent.cost;
+      const bool converged = IsSmall(step) || descent.cost - cost < 1e-6 * descent.cost;
       posture = candidate;
       descent.cost = cost;
       damping = std::max(1e-7, 0.2 * damping);
@@ -120,6 +125,8 @@ double MeanResidual(const MarkerModel& model, const MarkerFrame& frame, const Mo
 }
 
 constexpr int kColdIterations = 30;
+// Steps with the loss that still pulls from afar before the one that ignores ghosts.
+constexpr int kApproach = 2;
 
 }  // namespace
 
@@ -139,8 +146,9 @@ PoseSolverReport PoseSolver::Solve(const MarkerFrame& frame, State& state) const
     problem.priors.rotation_sigma = options_.step_per_frame;
   }
   Posture posture = previous;
-  const Descent descent = Minimise(problem, options_.max_iterations, posture);
-  report.iterations = descent.iterations;
+  report.iterations = Minimise(problem, kApproach, posture).iterations;
+  problem.loss = Final(problem.loss);
+  report.iterations += Minimise(problem, options_.max_iterations, posture).iterations;
   report.mean_residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
   report.solved = true;
 
@@ -167,13 +175,14 @@ PoseSolverReport PoseSolver::SolveCold(const MarkerFrame& frame, State& state) c
   double best_cost = std::numeric_limits<double>::infinity();
   for (const ColdGuess guess : kColdGuesses) {
     Posture posture = PostureFromPose(GuessPose(model_, frame, guess));
-    Descent descent;
+    Problem problem{model_, frame, {options_.sigma, options_.outlier_factor}, {}};
     for (const double factor : {12.0, 4.0, 1.0}) {
-      const Problem problem{model_, frame, {factor * options_.sigma, options_.outlier_factor}, {}};
-      const Descent stage = Minimise(problem, kColdIterations, posture);
-      report.iterations += stage.iterations;
-      descent.cost = stage.cost;
+      problem.loss.sigma = factor * options_.sigma;
+      report.iterations += Minimise(problem, kColdIterations, posture).iterations;
     }
+    problem.loss = Final(problem.loss);
+    const Descent descent = Minimise(problem, kColdIterations, posture);
+    report.iterations += descent.iterations;
     const double residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
     if (!(descent.cost < best_cost)) continue;
     best_cost = descent.cost;

@@ -26,11 +26,11 @@ struct MarkerModel {
 };
 
 struct PoseSolverOptions {
-  double sigma = 0.008;                  // expected marker error, one axis, metres
-  double outlier_factor = 5.0;           // errors beyond this many sigmas lose their pull
+  double sigma = 0.008;                   // expected marker error, one axis, metres
+  double outlier_factor = 5.0;            // errors beyond this many sigmas lose their pull
   double step_per_frame = Radians(8.0);  // soft temporal prior, per joint and axis; 0: none
-  int max_iterations = 12;               // per frame once started
-  double restart_residual = 0.03;        // mean residual that triggers a fresh start, metres
+  int max_iterations = 12;                // per frame once started
+  double restart_residual = 0.03;         // mean residual that triggers a fresh start, metres
 };
 
 /// What one solve came to.

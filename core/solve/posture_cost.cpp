@@ -152,13 +152,15 @@ double AllPriors(const Posture& posture, const Priors& priors, NormalEquations* 
 }  // namespace
 
 double MarkerLoss::Cost(double squared_distance) const {
-  const double c2 = outlier_factor * outlier_factor * sigma * sigma;
-  return 0.5 * outlier_factor * outlier_factor * std::log1p(squared_distance / c2);
+  const double k2 = outlier_factor * outlier_factor;
+  const double ratio = squared_distance / (k2 * sigma * sigma);  // (r / c)^2
+  return 0.5 * k2 * (kind == Kind::kCauchy ? std::log1p(ratio) : ratio / (1.0 + ratio));
 }
 
 double MarkerLoss::Weight(double squared_distance) const {
   const double variance = sigma * sigma;
-  return 1.0 / (variance + squared_distance / (outlier_factor * outlier_factor));
+  const double faded = 1.0 + squared_distance / (outlier_factor * outlier_factor * variance);
+  return 1.0 / (variance * (kind == Kind::kCauchy ? faded : faded * faded));
 }
 
 double PriorCost(const Posture& posture, const Priors& priors) {

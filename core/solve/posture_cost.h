@@ -12,11 +12,16 @@
 
 namespace ego {
 
-/// Soft loss of a marker's error: Cauchy, 1/2 c^2 log(1 + r^2 / c^2) / sigma^2 with
-/// c = outlier_factor * sigma. Quadratic near zero; far off, the pull fades as 1 / r.
+/// Soft loss of a marker's error r: quadratic near zero, r^2 / (2 sigma^2); beyond
+/// c = outlier_factor * sigma the pull fades.
 struct MarkerLoss {
+  enum class Kind {
+    kCauchy,        // 1/2 c^2 log(1 + r^2 / c^2) / sigma^2: fades as 1 / r, still finds far ones
+    kGemanMcClure,  // 1/2 c^2 r^2 / (c^2 + r^2) / sigma^2: fades as 1 / r^3, ghosts lose all pull
+  };
   double sigma = 0.008;
   double outlier_factor = 5.0;
+  Kind kind = Kind::kCauchy;
 
   double Cost(double squared_distance) const;
   /// Weight of the squared error in the equivalent least squares.

@@ -257,6 +257,10 @@ Result<SkeletonFit> FitSkeleton(const MarkerTake& take, const MarkerSet& set,
     }
     stage.loss.sigma = kStages[s].first;
     stage.max_iterations = kStages[s].second;
+    if (s + 1 == kStages.size()) {  // places are known: ghosts need not pull any longer
+      stage.loss.kind = MarkerLoss::Kind::kGemanMcClure;
+      stage.loss.outlier_factor *= 2.0;
+    }
     AdjustBundle(bundle, stage);
     Rescale(bundle);
   }

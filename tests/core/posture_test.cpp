@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "core/solve/posture.h"
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/body/body.h"
+#include "core/solve/posture_cost.h"
+
+namespace ego {
+namespace {
+
+using J = HumanoidJoint;
+
+Posture RandomPosture(unsigned seed, double spread) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, spread);
+  std::array<double, kPoseDof> step;
+  for (double& s : step) s = normal(random);
+  return Moved(NeutralPosture(), step);
+}
+
+MarkerModel SomeMarkers() {
+  MarkerModel model;
+  model.skeleton = TemplateSkeleton(1.7);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const double d = 0.01 * static_cast<double>(j);
+    model.markers.push_back({model.markers.size(), static_cast<J>(j), {0.05 + d, 0.04, -d}});
+    model.markers.push_back({model.markers.size(), static_cast<J>(j), {-0.03, d, 0.06}});
+  }
+  return model;
+}
+
+struct Seen {
+  std::vector<Vec3> position;
+  std::vector<std::uint8_t> visible;
+  MarkerFrame Frame() const { return {0.0, position, visible}; }
+};
+
+Seen Observe(const MarkerModel& model, const Posture& posture, double error, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, error);
+  const ModelPose pose = Placed(model.skeleton, posture);
+  Seen seen;
+  for (const BoundMarker& m : model.markers) {
+    seen.position.push_back(pose.Position(m.joint) + pose.Rotation(m.joint) * m.offset_ls +
+                            Vec3{normal(random), normal(random), normal(random)});
+    seen.visible.push_back(1);
+  }
+  return seen;
+}
+
+TEST(Posture, ChainsHoldExactlyTheJointsAbove) {
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    std::size_t expected = 3;
+    for (std::size_t k = j;; k = Index(kParent[k])) {
+      expected += DofsOf(static_cast<J>(k)).count;
+      if (k == 0) break;
+    }
+    EXPECT_EQ(Chain(static_cast<J>(j)).size(), expected) << Name(static_cast<J>(j));
+  }
+}
+
+TEST(Posture, RoundTripsThroughAPose) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Posture posture = RandomPosture(seed, 0.5);
+    const Posture back = PostureFromPose(PoseFromPosture(posture));
+    for (std::size_t limb = 0; limb < kLimbCount; ++limb) {
+      EXPECT_NEAR(back.flexion[limb], posture.flexion[limb], 1e-9);
+      EXPECT_NEAR(back.axial[limb], posture.axial[limb], 1e-9);
+    }
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      EXPECT_NEAR(std::abs(glm::dot(back.rotation_ls[j], posture.rotation_ls[j])), 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(RotationVector, InvertsExpAndItsJacobianIsTheDerivative) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vec3 axis = glm::normalize(Vec3{normal(random), normal(random), normal(random)});
+    const Vec3 v = axis * (trial == 0 ? 0.0 : trial == 1 ? 1e-6 : 3.1 * trial / 100.0);
+    EXPECT_LT(glm::distance(RotationVector(Exp(v)), v), 1e-9);
+    const Mat3 jacobian = RotationVectorJacobian(v);
+    constexpr double kStep = 1e-6;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 delta{0.0};
+      delta[k] = kStep;
+      const Vec3 slope =
+          (RotationVector(Exp(v) * Exp(delta)) - RotationVector(Exp(v) * Exp(-delta))) /
+          (2.0 * kStep);
+      EXPECT_LT(glm::distance(slope, jacobian[k]), 1e-4) << "|v| = " << glm::length(v);
+    }
+  }
+}
+
+TEST(PostureCost, GradientIsTheFiniteDifferenceOfTheCost) {
+  const MarkerModel model = SomeMarkers();
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    const Posture posture = RandomPosture(seed, 0.35);
+    const Posture before = RandomPosture(seed + 100, 0.30);
+    const Seen seen = Observe(model, RandomPosture(seed + 50, 0.3), 0.02, seed);
+    const MarkerLoss loss{0.02, 5.0};
+    Priors priors;
+    priors.previous = &before;
+    const auto cost = [&](const Posture& p) {
+      return PriorCost(p, priors) +
+             MarkerCost(model, seen.Frame(), Placed(model.skeleton, p), loss);
+    };
+    NormalEquations equations;
+    const double linear_cost =
+        AddPriors(posture, priors, equations) +
+        AddMarkers(model, seen.Frame(), Placed(model.skeleton, posture), loss, equations);
+    EXPECT_NEAR(linear_cost, cost(posture), 1e-9 * linear_cost);
+    for (std::size_t d = 0; d < kPoseDof; ++d) {
+      constexpr double kStep = 1e-6;
+      std::array<double, kPoseDof> step{};
+      step[d] = kStep;
+      const double ahead = cost(Moved(posture, step));
+      step[d] = -kStep;
+      const double behind = cost(Moved(posture, step));
+      const double slope = (ahead - behind) / (2.0 * kStep);
+      EXPECT_NEAR(equations.g[d], slope, 1e-4 * std::max(1.0, std::abs(slope))) << "dof " << d;
+    }
+  }
+}
+
+TEST(PostureCost, PointJacobianIsTheFiniteDifferenceOfThePoint) {
+  const Skeleton skeleton = TemplateSkeleton(1.7);
+  const Posture posture = RandomPosture(3, 0.4);
+  const ModelPose pose = Placed(skeleton, posture);
+  std::array<Vec3, kPoseDof> axes;
+  DofAxes(pose, axes);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const auto joint = static_cast<J>(j);
+    const Vec3 offset{0.05, -0.02, 0.03};
+    const auto point = [&](const Posture& p) {
+      const ModelPose placed = Placed(skeleton, p);
+      return placed.Position(joint) + placed.Rotation(joint) * offset;
+    };
+    std::array<Vec3, kPoseDof> column;
+    PointJacobian(joint, point(posture), pose, axes, column);
+    std::size_t next = 0;
+    for (std::size_t d = 0; d < kPoseDof; ++d) {
+      constexpr double kStep = 1e-6;
+      std::array<double, kPoseDof> step{};
+      step[d] = kStep;
+      const Vec3 ahead = point(Moved(posture, step));
+      step[d] = -kStep;
+      const Vec3 slope = (ahead - point(Moved(posture, step))) / (2.0 * kStep);
+      const auto chain = Chain(joint);
+      const bool in_chain = next < chain.size() && chain[next] == d;
+      EXPECT_LT(glm::distance(slope, in_chain ? column[next] : Vec3{0.0}), 1e-7)
+          << Name(joint) << " dof " << d;
+      if (in_chain) ++next;
+    }
+  }
+}
+
+TEST(MarkerLoss, IsQuadraticNearAndFadesFar) {
+  const MarkerLoss loss{0.01, 5.0};
+  EXPECT_NEAR(loss.Cost(1e-6), 0.5 * 1e-6 / 1e-4, 1e-5);
+  // The pull, weight times distance, falls beyond the outlier distance.
+  const auto pull = [&](double r) { return loss.Weight(r * r) * r; };
+  EXPECT_GT(pull(0.05), pull(0.02));
+  EXPECT_GT(pull(0.05), pull(0.2));
+  EXPECT_LT(pull(1.0), 0.15 * pull(0.05));
+}
+
+}  // namespace
+}  // namespace ego
