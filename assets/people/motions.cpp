@@ -100,11 +100,11 @@ Script ArmsCrossed(const Stage& stage) {
   p.head.yaw = 8.0;
   const Vec3 shoulder = stage.Joint(J::kLeftUpperArm);
   // The left hand lies on the right ribs, the right one on the left upper arm.
-  p.hand[0] = Touch(stage.Trunk(0.60, {-1.0, 0.0, 0.75}), {-1.0, 0.35, -0.3}, {0.8, -0.6, 0.45});
-  p.hand[1] = Touch(stage.At(shoulder + Vec3{0.15, 0.0, 0.0}, {0.0, 0.35, 1.0}), {-0.15, 1.0, 0.0},
-                    {0.8, -0.75, 0.55});
+  p.hand[0] = Touch(stage.Trunk(0.56, {-0.8, 0.0, 1.0}), {-0.75, 0.65, -0.3}, {0.8, -0.7, 0.3});
+  p.hand[1] = Touch(stage.At(shoulder + Vec3{0.16, 0.0, 0.0}, {0.0, 0.75, -0.8}),
+                    {-0.25, -0.7, -0.7}, {0.8, -0.75, 0.75});
   p.hand[1].after_other = true;
-  return Visit(p, 1.2, 1.5, 1.2);
+  return Visit(p, 1.45, 1.5, 1.45);
 }
 
 Script HandOnShoulder(const Stage& stage) {
@@ -113,8 +113,8 @@ Script HandOnShoulder(const Stage& stage) {
   p.head.yaw = 18.0;
   p.head.pitch = 4.0;
   const Vec3 shoulder = stage.Joint(J::kLeftUpperArm);
-  p.hand[1] = Touch(stage.At(shoulder + Vec3{-0.005, 0.0, 0.0}, {0.25, 1.0, 0.55}),
-                    {-1.0, 0.15, -0.75}, {0.35, -1.0, 0.45});
+  p.hand[1] = Touch(stage.At(shoulder + Vec3{-0.03, 0.0, 0.0}, {0.1, 1.0, 0.5}), {-0.25, 0.3, -1.0},
+                    {0.35, -1.0, 0.45});
   p.shrug[1] = 4.0;
   p.hand[1].after_other = true;
   return Visit(p, 1.0, 1.2, 1.0);
@@ -197,15 +197,15 @@ Script HandsOnKnees(const Stage& stage) {
     p.hand[side] = Touch(stage.At(knee + Vec3{0.0, 0.085, 0.0}, {0.0, 0.0, 1.0}),
                          {-0.25, -1.0, 0.0}, {0.9, -0.1, -0.5});
   }
-  return Visit(p, 1.2, 1.3, 1.2);
+  return Visit(p, 1.5, 1.3, 1.5);
 }
 
 Script HandToAnkle(const Stage& stage) {
   Posture p = Stand();
-  p.root = {0.02, -0.30, -0.13};
+  p.root = {0.03, -0.36, -0.13};
   p.pelvis.pitch = 62.0;
-  p.spine.pitch = 46.0;
-  p.spine.roll = -4.0;
+  p.spine.pitch = 48.0;
+  p.spine.roll = -8.0;
   p.head.pitch = -18.0;
   const Vec3 ankle = stage.Joint(J::kLeftFoot);
   p.hand[0] = Touch(stage.At(ankle + Vec3{0.0, 0.07, 0.0}, {1.0, 0.0, 0.25}), {0.0, -0.8, 0.75},
@@ -213,7 +213,7 @@ Script HandToAnkle(const Stage& stage) {
   const Vec3 knee = stage.Joint(J::kRightLowerLeg);
   p.hand[1] = Touch(stage.At(knee + Vec3{0.0, 0.06, 0.0}, {0.0, 0.0, 1.0}), {-0.3, -1.0, 0.0},
                     {0.9, 0.2, -0.3});
-  return Visit(p, 1.4, 1.1, 1.4);
+  return Visit(p, 1.75, 1.1, 1.75);
 }
 
 Script WalkInPlace(const Stage&) {

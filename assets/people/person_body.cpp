@@ -79,8 +79,8 @@ double MeasureRadius(const FigureSurface& surface, const Vec3& start, const Vec3
   const Vec3 v = glm::cross(axis, u);
   double sum = 0.0;
   int count = 0;
-  for (int i = 0; i <= 6; ++i) {
-    const Vec3 origin = start + (0.2 + 0.1 * i) * (end - start);
+  for (int i = 0; i <= 4; ++i) {
+    const Vec3 origin = start + (0.3 + 0.1 * i) * (end - start);
     for (int k = 0; k < 12; ++k) {
       const double angle = 2.0 * kPi * (k + 0.5) / 12.0;
       const Vec3 d = std::cos(angle) * u + std::sin(angle) * v;

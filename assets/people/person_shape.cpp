@@ -21,7 +21,7 @@ Profile LimbProfile(double radius, std::vector<Vec2> shape) {
   const Profile raw(shape);
   double sum = 0.0;
   constexpr int kSteps = 60;
-  for (int i = 0; i <= kSteps; ++i) sum += raw(0.2 + 0.6 * i / kSteps);
+  for (int i = 0; i <= kSteps; ++i) sum += raw(0.3 + 0.4 * i / kSteps);
   const double factor = radius * (kSteps + 1) / sum;
   for (Vec2& p : shape) p.y *= factor;
   return Profile(std::move(shape));
@@ -98,12 +98,19 @@ PersonShape::PersonShape(const PersonParameters& parameters)
                           {y(0.91), 0.80 * chest},
                           {y(0.98), 0.52 * chest},
                           {y(1.08), 0.36 * chest}});
+  // A belly is rounder than a curve through few points would make it.
+  const double flat = std::min(belly_front, 0.47 * std::max(cd, 0.9 * hd));
+  const double bulge = belly_front - flat;
   trunk_front_ = Profile({{y(-0.20), 0.30 * hd},
-                          {y(-0.05), 0.40 * hd},
-                          {y(0.10), glm::mix(0.45 * hd, belly_front, 0.35)},
+                          {y(-0.08), 0.38 * hd},
+                          {y(0.00), glm::mix(0.43 * hd, flat, 0.15) + 0.22 * bulge},
+                          {y(0.08), glm::mix(0.45 * hd, flat, 0.35) + 0.62 * bulge},
+                          {y(0.17), glm::mix(0.45 * hd, flat, 0.7) + 0.91 * bulge},
                           {y(0.27), belly_front},
-                          {y(0.46), glm::mix(belly_front, 0.45 * cd, 0.55)},
-                          {y(0.68), 0.45 * cd},
+                          {y(0.38), glm::mix(flat, 0.45 * cd, 0.3) + 0.90 * bulge},
+                          {y(0.48), glm::mix(flat, 0.45 * cd, 0.6) + 0.66 * bulge},
+                          {y(0.59), glm::mix(flat, 0.45 * cd, 0.85) + 0.33 * bulge},
+                          {y(0.70), 0.45 * cd + 0.08 * bulge},
                           {y(0.82), 0.34 * cd},
                           {y(0.91), 0.17 * cd},
                           {y(0.98), 0.05 * cd},
@@ -183,7 +190,7 @@ double PersonShape::Hand(const Vec3& p) const {
   const double widen = 1.0 / (0.72 + 0.55 * std::clamp(q.x, 0.0, 0.5));
   double d =
       field::RoundBox({q.x, q.y, q.z * widen}, {0.27, 0.0, 0.0}, {0.27, 0.078, 0.215}, 0.075);
-  d = SmoothUnion(d, Ellipsoid(q, {0.17, -0.03, 0.13}, {0.17, 0.07, 0.10}), 0.06);  // thumb's ball
+  d = SmoothUnion(d, Ellipsoid(q, {0.17, -0.02, 0.13}, {0.17, 0.062, 0.10}), 0.06);  // thumb's ball
 
   struct Finger {
     double knuckle_x, knuckle_z, length, spread;
@@ -226,10 +233,10 @@ double PersonShape::Foot(const Vec3& p) const {
   const double length = parameters_.foot_length;
   const Vec3& ankle = Joint(J::kLeftFoot);
   const Vec3 q = Vec3{p.x - ankle.x, p.y, p.z - ankle.z} / length;  // in foot lengths
-  double d = Capsule(q, {0.0, 0.13, -0.085}, {0.0, 0.14, 0.16}, 0.135, 0.125);
+  double d = Capsule(q, {0.0, 0.105, -0.085}, {0.0, 0.13, 0.16}, 0.135, 0.130);
   d = SmoothUnion(d, Ellipsoid(q, {0.012, 0.085, 0.40}, {0.178, 0.125, 0.27}), 0.14);
   d = SmoothUnion(d, Ellipsoid(q, {0.0, 0.075, 0.60}, {0.155, 0.105, 0.18}), 0.08);
-  return SmoothIntersection(d, -q.y, 0.05) * length;
+  return SmoothIntersection(d, -q.y, 0.03) * length;
 }
 
 double PersonShape::Head(const Vec3& p) const {
@@ -246,7 +253,7 @@ double PersonShape::Head(const Vec3& p) const {
                   0.16 * h);
   d = SmoothUnion(d, Ellipsoid(q, {0.0, 0.10 * h, 0.66 * l}, {0.30 * w, 0.09 * h, 0.20 * l}),
                   0.10 * h);  // chin
-  d = SmoothUnion(d, Ellipsoid(q, {0.58 * w, 0.36 * h, 0.52 * l}, {0.30 * w, 0.11 * h, 0.28 * l}),
+  d = SmoothUnion(d, Ellipsoid(q, {0.50 * w, 0.37 * h, 0.52 * l}, {0.28 * w, 0.12 * h, 0.27 * l}),
                   0.10 * h);  // cheek
   const double socket =
       Ellipsoid(q, {0.42 * w, 0.495 * h, 1.02 * l}, {0.30 * w, 0.075 * h * m.eye_size, 0.20 * l});
@@ -334,7 +341,7 @@ Region PersonShape::RegionAt(const Vec3& p) const {
   const double leg = Leg(p);
   const double length = TrunkLength();
 
-  if (p.y < HipHeight() + 0.13 * length) {
+  if (p.y < HipHeight() + 0.06 * length) {
     if (arm < std::min(trunk, leg)) return Region::kSkin;
     const Vec3& ankle = Joint(J::kLeftFoot);
     const Vec3& knee = Joint(J::kLeftLowerLeg);

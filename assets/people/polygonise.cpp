@@ -57,7 +57,10 @@ class Samples {
           for (std::size_t a = i; a < i1; ++a) {
             for (std::size_t b = j; b < j1; ++b) {
               for (std::size_t c = k; c < k1; ++c) {
-                value_[At(a, b, c)] = near ? surface(Place(a, b, c)) : middle;
+                const bool rim = a == 0 || b == 0 || c == 0 || a + 1 == size_[0] ||
+                                 b + 1 == size_[1] || c + 1 == size_[2];
+                const double value = near ? surface(Place(a, b, c)) : middle;
+                value_[At(a, b, c)] = rim ? std::max(value, 1e-9) : value;
               }
             }
           }

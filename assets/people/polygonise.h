@@ -31,7 +31,7 @@ struct ClosedMesh {
 /// The zero set as a closed mesh by surface nets (Gibson 1998): one vertex per lattice cell that
 /// the surface crosses, drawn onto the surface and evened out along it. Always a closed 2-manifold:
 /// samples are first made well-composed (Latecki 1997), by turning the fewest outside samples
-/// inside where the lattice cannot tell two sheets apart. The surface must lie inside the lattice.
+/// inside where the lattice cannot tell two sheets apart. What lies outside the lattice is cut off.
 ClosedMesh Polygonise(const ImplicitSurface& surface, const SampleLattice& lattice);
 
 }  // namespace ego

@@ -71,8 +71,8 @@ SkinPoint PostureSolver::Posed(const SkinPoint& skin, const ModelPose& pose) con
   return posed;
 }
 
-PostureSolver::HandFrame PostureSolver::FrameOf(const HandGoal& goal, std::size_t side,
-                                                const ModelPose& pose) const {
+PostureSolver::ArmGoal PostureSolver::GoalOf(const HandGoal& goal, std::size_t side,
+                                             const ModelPose& pose) const {
   const Quat& chest = pose.Rotation(J::kUpperChest);
   const J hand = side == 0 ? J::kLeftHand : J::kRightHand;
   Vec3 target;
@@ -98,39 +98,51 @@ PostureSolver::HandFrame PostureSolver::FrameOf(const HandGoal& goal, std::size_
     palm = glm::normalize(chest * Sided(goal.palm, side));
     fingers = Across(chest * Sided(goal.fingers, side), palm, chest * kUp);
   }
-  HandFrame frame;
-  frame.rotation = FromColumns(side == 0 ? fingers : -fingers, -palm);
+  const Quat rotation = FromColumns(side == 0 ? fingers : -fingers, -palm);
   const HandSurface& surface = body_.surface.hand[side];
   const Vec3& placed = goal.fingertip ? surface.fingertip_ms : surface.palm_ms;
-  frame.wrist = target - frame.rotation * (placed - canonical_[Index(hand)]);
-  frame.elbow = chest * Sided(goal.elbow, side);
-  return frame;
+  ArmGoal arm;
+  arm.wrist = target - rotation * (placed - canonical_[Index(hand)]);
+  arm.elbow = glm::normalize(chest * Sided(goal.elbow, side));
+  // The hand seen from its own forearm, as a turn about it and a bend of the wrist: what moves
+  // smoothly from one goal to the next.
+  const Quat relative = glm::conjugate(FramesOf(side, arm.wrist, arm.elbow, pose).lower) * rotation;
+  arm.twist = 2.0 * std::atan2(relative.x, relative.w);
+  arm.twist -= 2.0 * kPi * std::round(arm.twist / (2.0 * kPi));
+  arm.swing = relative * glm::angleAxis(-arm.twist, Vec3{1.0, 0.0, 0.0});
+  if (arm.swing.w < 0.0) arm.swing = -arm.swing;
+  return arm;
 }
 
-void PostureSolver::PlaceArm(std::size_t side, const HandFrame& frame, Pose& pose) const {
+PostureSolver::ArmFrames PostureSolver::FramesOf(std::size_t side, const Vec3& wrist,
+                                                 const Vec3& elbow, const ModelPose& pose) const {
   const LimbJoints arm = JointsOf(side == 0 ? Limb::kLeftArm : Limb::kRightArm);
-  const ModelPose model = ForwardKinematics(body_.skeleton, pose);
   const TwoBones bones =
-      Reach(model.Position(arm.base), frame.wrist, frame.elbow, BoneLength(body_.skeleton, arm.mid),
+      Reach(pose.Position(arm.base), wrist, elbow, BoneLength(body_.skeleton, arm.mid),
             BoneLength(body_.skeleton, arm.end));
   const double out = side == 0 ? 1.0 : -1.0;
-  const Quat upper = FromColumns(out * bones.upper, -out * bones.axis);
-  Quat lower = FromColumns(out * bones.lower, -out * bones.axis);
-  // Half of the turn about the forearm happens along the forearm, as radius and ulna do.
-  Quat relative = glm::conjugate(lower) * frame.rotation;
-  if (relative.w < 0.0) relative = -relative;
-  const double turn = 2.0 * std::atan2(relative.x, relative.w);
-  lower = lower * glm::angleAxis(0.5 * turn, Vec3{1.0, 0.0, 0.0});
-  const Quat parent = model.Rotation(Parent(arm.base));
-  pose.rotation_ls[Index(arm.base)] = glm::conjugate(parent) * upper;
-  pose.rotation_ls[Index(arm.mid)] = glm::conjugate(upper) * lower;
-  pose.rotation_ls[Index(arm.end)] = glm::conjugate(lower) * frame.rotation;
+  return {FromColumns(out * bones.upper, -out * bones.axis),
+          FromColumns(out * bones.lower, -out * bones.axis)};
 }
 
-void PostureSolver::PlaceLeg(std::size_t side, const FootGoal& goal, double yaw, Pose& pose) const {
+void PostureSolver::PlaceArm(std::size_t side, const ArmGoal& goal, const ModelPose& model,
+                             Pose& pose) const {
+  const LimbJoints arm = JointsOf(side == 0 ? Limb::kLeftArm : Limb::kRightArm);
+  const ArmFrames frames = FramesOf(side, goal.wrist, goal.elbow, model);
+  // Half of the turn happens along the forearm, as it does with radius and ulna.
+  const Quat half = glm::angleAxis(0.5 * goal.twist, Vec3{1.0, 0.0, 0.0});
+  const Quat lower = frames.lower * half;
+  const Quat hand = frames.lower * goal.swing * half * half;
+  pose.rotation_ls[Index(arm.base)] =
+      glm::conjugate(model.Rotation(Parent(arm.base))) * frames.upper;
+  pose.rotation_ls[Index(arm.mid)] = glm::conjugate(frames.upper) * lower;
+  pose.rotation_ls[Index(arm.end)] = glm::conjugate(lower) * hand;
+}
+
+void PostureSolver::PlaceLeg(std::size_t side, const FootGoal& goal, Pose& pose) const {
   const LimbJoints leg = JointsOf(side == 0 ? Limb::kLeftLeg : Limb::kRightLeg);
   const J toes = side == 0 ? J::kLeftToes : J::kRightToes;
-  const Quat turn = glm::angleAxis(Radians(yaw + (side == 0 ? 6.0 : -6.0)), kUp);
+  const Quat turn = glm::angleAxis(Radians(side == 0 ? 6.0 : -6.0), kUp);
   const Quat heel = glm::angleAxis(Radians(goal.heel_up), Vec3{1.0, 0.0, 0.0});
   // The foot turns about its toes, which stay on the ground when only the heel rises.
   const Vec3 ankle = canonical_[Index(leg.end)];
@@ -168,25 +180,24 @@ Pose PostureSolver::Solve(const Posture& from, const Posture& to, double share) 
         glm::angleAxis(Radians(shrug), Vec3{0.0, 0.0, 1.0});
     const FootGoal& a = from.foot[side];
     const FootGoal& b = to.foot[side];
-    PlaceLeg(side, {glm::mix(a.offset, b.offset, share), Mix(a.heel_up, b.heel_up, share)}, 0.0,
-             pose);
+    PlaceLeg(side, {glm::mix(a.offset, b.offset, share), Mix(a.heel_up, b.heel_up, share)}, pose);
   }
 
   const bool left_last = from.hand[0].after_other || to.hand[0].after_other;
   for (const std::size_t side :
        {left_last ? std::size_t{1} : std::size_t{0}, left_last ? std::size_t{0} : std::size_t{1}}) {
     const ModelPose model = ForwardKinematics(body_.skeleton, pose);
-    const HandFrame a = FrameOf(from.hand[side], side, model);
-    const HandFrame b = FrameOf(to.hand[side], side, model);
-    HandFrame frame;
-    frame.wrist = glm::mix(a.wrist, b.wrist, share);
-    const Vec3 chest = model.Position(J::kChest);
-    const Vec3 out = frame.wrist - chest;
+    const ArmGoal a = GoalOf(from.hand[side], side, model);
+    const ArmGoal b = GoalOf(to.hand[side], side, model);
+    ArmGoal goal;
+    goal.wrist = glm::mix(a.wrist, b.wrist, share);
+    const Vec3 out = goal.wrist - model.Position(J::kChest);
     const double arc = 4.0 * share * (1.0 - share) * 0.22 * glm::distance(a.wrist, b.wrist);
-    frame.wrist += arc * Across(out, model.Rotation(J::kChest) * kUp, Vec3{0.0, 0.0, 1.0});
-    frame.rotation = glm::slerp(a.rotation, b.rotation, share);
-    frame.elbow = glm::mix(glm::normalize(a.elbow), glm::normalize(b.elbow), share);
-    PlaceArm(side, frame, pose);
+    goal.wrist += arc * Across(out, model.Rotation(J::kChest) * kUp, Vec3{0.0, 0.0, 1.0});
+    goal.elbow = glm::mix(a.elbow, b.elbow, share);
+    goal.twist = Mix(a.twist, b.twist, share);
+    goal.swing = glm::slerp(a.swing, b.swing, share);
+    PlaceArm(side, goal, model, pose);
   }
   for (Quat& q : pose.rotation_ls) {
     q = glm::normalize(q);

@@ -45,7 +45,7 @@ struct FootGoal {
 
 /// Goals for a whole body: a key of a scripted motion.
 struct Posture {
-  Vec3 root{0.0, -0.012, 0.0};  // metres from the standing place
+  Vec3 root{0.0, -0.005, 0.0};  // metres from the standing place
   Bend pelvis;
   Bend spine;                     // shared by spine, chest and upper chest
   Bend head;                      // shared by neck and head
@@ -68,14 +68,21 @@ class PostureSolver {
   SkinPoint Posed(const SkinPoint& skin, const ModelPose& pose) const;
 
  private:
-  struct HandFrame {
-    Vec3 wrist;
-    Quat rotation;
-    Vec3 elbow;  // world
+  struct ArmGoal {
+    Vec3 wrist;          // world
+    Vec3 elbow;          // world, where it points
+    double twist = 0.0;  // of the hand about the forearm, radians
+    Quat swing = kIdentity;
   };
-  HandFrame FrameOf(const HandGoal& goal, std::size_t side, const ModelPose& pose) const;
-  void PlaceLeg(std::size_t side, const FootGoal& goal, double yaw, Pose& pose) const;
-  void PlaceArm(std::size_t side, const HandFrame& frame, Pose& pose) const;
+  ArmGoal GoalOf(const HandGoal& goal, std::size_t side, const ModelPose& pose) const;
+  struct ArmFrames {
+    Quat upper;  // world; lower without the forearm's twist
+    Quat lower;
+  };
+  ArmFrames FramesOf(std::size_t side, const Vec3& wrist, const Vec3& elbow,
+                     const ModelPose& pose) const;
+  void PlaceLeg(std::size_t side, const FootGoal& goal, Pose& pose) const;
+  void PlaceArm(std::size_t side, const ArmGoal& goal, const ModelPose& model, Pose& pose) const;
 
   const Body& body_;
   std::array<Vec3, kJointCount> canonical_;

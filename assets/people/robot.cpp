@@ -129,8 +129,8 @@ Person MakeRobot(const PersonParameters& m) {
   const double foot = m.foot_length;
   const double toes = at(J::kLeftToes).z - ankle.z;
   const double sole = 0.5 * m.ankle_height;
-  make.Box(J::kLeftFoot, Region::kShoes, {ankle.x, sole, ankle.z + 0.5 * (toes - 0.22 * foot)},
-           {0.19 * foot, sole, 0.5 * (toes + 0.22 * foot) + 0.01 * foot}, 0.4 * sole);
+  make.Box(J::kLeftFoot, Region::kShoes, {ankle.x, sole, ankle.z + 0.5 * (toes - 0.16 * foot)},
+           {0.19 * foot, sole, 0.5 * (toes + 0.28 * foot)}, 0.4 * sole);
   make.Box(J::kLeftToes, Region::kShoes,
            {ankle.x, 0.8 * sole, ankle.z + 0.5 * (toes + 0.78 * foot)},
            {0.18 * foot, 0.8 * sole, 0.5 * (0.78 * foot - toes) + 0.01 * foot}, 0.4 * sole);
