@@ -246,7 +246,10 @@ void AppendBody(const Body& body, const ModelPose& pose, const Vec3& offset_ws, 
   const auto& sample = body.surface.sample_ms;
   const double ears =
       glm::length(sample[Index(SamplePoint::kLeftEar)] - sample[Index(SamplePoint::kRightEar)]);
-  AppendCapsule(at(J::kNeck), 0.36 * ears, at(J::kHead), 0.34 * ears, Roundness::kLimb, sink);
+  const double throat =
+      glm::length(sample[Index(SamplePoint::kCollarNotch)] - sample[Index(SamplePoint::kNapeBase)]);
+  const double neck = std::min(0.36 * ears, 0.4 * throat);
+  AppendCapsule(at(J::kNeck), neck, at(J::kHead), 0.95 * neck, Roundness::kLimb, sink);
   for (std::size_t side = 0; side < 2; ++side) {
     AppendHand(body, canonical, pose, offset_ws, side, sink);
     AppendFoot(body, canonical, pose, offset_ws, side, sink);

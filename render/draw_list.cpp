@@ -5,12 +5,15 @@
 #include <array>
 #include <cmath>
 
+#include "render/shadow_mesh.h"
+
 namespace ego {
 namespace {
 
 using J = HumanoidJoint;
 
 constexpr float kRimStrength = 0.9f;
+constexpr float kShadowCells = 80.0f;  // over a character's largest extent
 
 std::uint32_t Size(const auto& container) { return static_cast<std::uint32_t>(container.size()); }
 
@@ -60,6 +63,15 @@ StageCharacter PrepareCharacter(const Character& character) {
       return out;
     }
   }
+  glm::vec3 low{1e30f}, high{-1e30f};
+  for (const MeshPart& part : character.parts) {
+    for (const glm::vec3& p : part.positions) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  const glm::vec3 extent = high - low;
+  const float cell = std::max({extent.x, extent.y, extent.z}) / kShadowCells;
   for (const MeshPart& part : character.parts) {
     if (!IsUsable(part, character.palette.size())) continue;
     StageCharacter::Part& to = out.parts.emplace_back();
@@ -68,6 +80,18 @@ StageCharacter PrepareCharacter(const Character& character) {
     to.first_index = Size(out.indices);
     to.index_count = Size(part.triangles) / 3u * 3u;
     out.indices.insert(out.indices.end(), part.triangles.begin(), part.triangles.end());
+    to.first_shadow_index = to.first_index;
+    to.shadow_index_count = to.index_count;
+    const bool has_holes = part.material >= 0 &&
+                           static_cast<std::size_t>(part.material) < character.materials.size() &&
+                           character.materials[static_cast<std::size_t>(part.material)].alpha_mask;
+    if (!has_holes) {
+      const std::vector<std::uint32_t> coarse =
+          ClusterTriangles(part.positions, part.normals, part.triangles, cell);
+      to.first_shadow_index = Size(out.indices);
+      to.shadow_index_count = Size(coarse);
+      out.indices.insert(out.indices.end(), coarse.begin(), coarse.end());
+    }
     // The parts of `character` keep their materials, without their vertices.
     MeshPart& kept = out.character.parts.emplace_back();
     kept.name = part.name;
@@ -148,6 +172,8 @@ void DrawList::AddMesh(const TriangleSink& sink, std::size_t first_index, const 
   mesh.first_vertex = static_cast<std::uint32_t>(sink.first_vertex);
   mesh.first_index = static_cast<std::uint32_t>(first_index);
   mesh.index_count = Size(indices) - mesh.first_index;
+  mesh.first_shadow_index = mesh.first_index;
+  mesh.shadow_index_count = mesh.index_count;
   meshes.push_back(mesh);
 }
 
@@ -184,6 +210,8 @@ void DrawList::AddCharacter(const Figure& figure, std::uint32_t index,
     mesh.character = shown.character.value;
     mesh.first_index = part.first_index;
     mesh.index_count = part.index_count;
+    mesh.first_shadow_index = part.first_shadow_index;
+    mesh.shadow_index_count = part.shadow_index_count;
     mesh.first_vertex = static_cast<std::uint32_t>(first);
     mesh.color = material.base_color * glm::vec4(shown.tint, shown.opacity);
     mesh.image = part.uvs.empty() ? -1 : material.base_color_image;
@@ -266,7 +294,9 @@ void DrawList::AddMarkers(const Figure& figure, const Vec3& eye) {
     const Vec3 at = shown.frame.position_ws[i] + figure.offset_ws;
     AppendCapsule(at, shown.radius, at, shown.radius, Roundness::kBone, sink);
   }
-  AddMesh(sink, first_index, glm::vec4(Linear(shown.color), 1.0f));
+  // Lighter than the surface they lie on, as what throws the light back is.
+  AddMesh(sink, first_index,
+          glm::vec4(glm::mix(Linear(shown.color), glm::vec3{1.0f}, 0.35f), 1.0f));
   End(group, eye, sink.first_vertex);
 }
 

@@ -25,6 +25,8 @@ struct StageCharacter {
     std::vector<glm::vec2> uvs;  // one per vertex, or empty
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
+    std::uint32_t first_shadow_index = 0;  // a coarser mesh over the same vertices
+    std::uint32_t shadow_index_count = 0;
   };
   std::vector<Part> parts;
   std::vector<std::uint32_t> indices;  // of all parts
@@ -44,6 +46,8 @@ struct DrawList {
     std::uint32_t character = 0;  // whose indices; 0: the list's own
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
+    std::uint32_t first_shadow_index = 0;
+    std::uint32_t shadow_index_count = 0;
     std::uint32_t first_vertex = 0;
     glm::vec4 color{1.0f};  // linear, with opacity
     int image = -1;         // of the character
@@ -56,7 +60,7 @@ struct DrawList {
     Pass pass = Pass::kOpaque;
     double distance = 0.0;  // from the camera
     bool hides_itself = true;
-    bool casts_shadow = true;
+    bool casts_shadow = true;  // and lies in that of others
     glm::vec4 rim{0.0f};
     std::uint32_t first_mesh = 0, mesh_count = 0;
   };

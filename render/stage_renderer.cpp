@@ -80,7 +80,8 @@ struct StageRenderer::Impl {
   void Prepare(const StageView& view);
   void DrawShadows();
   void DrawScene(const StageView& view, const DrawTarget& target);
-  void DrawGroup(const DrawList::Group& group, bool depth_only, const glm::mat4& clip);
+  enum class Draws { kLit, kDepth, kShadow };
+  void DrawGroup(const DrawList::Group& group, Draws draws, const glm::mat4& clip);
   void DrawGroups(Pass pass);
   void DrawFloorAndRoom(const StageView& view, const DrawTarget& target);
   void DrawGlows(const Camera& camera);
@@ -131,13 +132,14 @@ void StageRenderer::Impl::DrawShadows() {
                                  glm::translate(glm::mat4{1.0f}, glm::vec3{-0.5f});
   const glm::mat4 light = from_texture * shadow_matrix;
   for (const DrawList::Group& group : list.groups) {
-    if (group.casts_shadow) DrawGroup(group, true, light);
+    if (group.casts_shadow) DrawGroup(group, Draws::kShadow, light);
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
-void StageRenderer::Impl::DrawGroup(const DrawList::Group& group, bool depth_only,
+void StageRenderer::Impl::DrawGroup(const DrawList::Group& group, Draws draws,
                                     const glm::mat4& clip) {
+  const bool depth_only = draws != Draws::kLit;
   for (std::uint32_t i = 0; i < group.mesh_count; ++i) {
     const DrawList::Mesh& mesh = list.meshes[group.first_mesh + i];
     const GLuint image = ImageOf(mesh);
@@ -147,7 +149,10 @@ void StageRenderer::Impl::DrawGroup(const DrawList::Group& group, bool depth_onl
     program.Use();
     program.Set("view_projection", clip);
     program.Set("color", mesh.color);
-    if (!depth_only) program.Set("rim", group.rim);
+    if (!depth_only) {
+      program.Set("rim", group.rim);
+      program.Set("shadow_strength", shadows && group.casts_shadow ? 1.0f : 0.0f);
+    }
     if (textured) {
       glBindTexture(GL_TEXTURE_2D, image);
       program.Set("base_map", 0);
@@ -160,7 +165,7 @@ void StageRenderer::Impl::DrawGroup(const DrawList::Group& group, bool depth_onl
       glEnable(GL_CULL_FACE);
     }
     glFrontFace(mesh.mirrored ? GL_CW : GL_CCW);
-    buffers.DrawMesh(mesh, BuffersOf(mesh.character));
+    buffers.DrawMesh(mesh, draws == Draws::kShadow, BuffersOf(mesh.character));
   }
 }
 
@@ -170,11 +175,11 @@ void StageRenderer::Impl::DrawGroups(Pass pass) {
     if (pass != Pass::kOpaque && group.hides_itself) {
       // Its own depth first: what is seen through is the nearest skin only, not the inside.
       glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      DrawGroup(group, true, view_projection);
+      DrawGroup(group, Draws::kDepth, view_projection);
       glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
     glDepthMask(group.hides_itself ? GL_TRUE : GL_FALSE);
-    DrawGroup(group, false, view_projection);
+    DrawGroup(group, Draws::kLit, view_projection);
     glDepthMask(GL_TRUE);
   }
   glEnable(GL_CULL_FACE);
@@ -335,8 +340,8 @@ Result<StageRenderer> StageRenderer::Create(const Options& options) {
   const std::string_view name = driver != nullptr ? driver : "";
   impl->is_software = name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos ||
                       name.find("swrast") != name.npos;
-  const int wanted = options.shadow_map_size > 0 ? options.shadow_map_size
-                                                 : (impl->is_software ? 1024 : 2048);
+  const int wanted =
+      options.shadow_map_size > 0 ? options.shadow_map_size : (impl->is_software ? 1024 : 2048);
   impl->shadow_map_size = std::clamp(wanted, 256, 8192);
   // Shaders always have a map to look at, also when shadows are off.
   if (!impl->shadow.Resize(impl->shadow_map_size, impl->shadow_map_size / 2)) {

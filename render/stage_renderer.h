@@ -33,7 +33,7 @@ class StageRenderer {
     /// Bytes of a TrueType or OpenType font for name plates. Empty or unreadable: a plain
     /// built-in face stands in.
     std::span<const std::uint8_t> font;
-    int samples = 0;  // of multisampling; 0 or 1: none. Clamped to what the driver has
+    int samples = 0;          // of multisampling; 0 or 1: none. Clamped to what the driver has
     int shadow_map_size = 0;  // texels across; 0: what suits the driver
   };
   /// The sentence names the shader's file and line, or what the context lacks.

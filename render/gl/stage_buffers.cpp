@@ -106,12 +106,15 @@ void StageBuffers::UploadPlates(std::span<const PlateVertex> vertices, TextAtlas
                GL_UNSIGNED_BYTE, atlas.Pixels().data());
 }
 
-void StageBuffers::DrawMesh(const DrawList::Mesh& mesh, const CharacterBuffers* character) const {
+void StageBuffers::DrawMesh(const DrawList::Mesh& mesh, bool as_shadow,
+                            const CharacterBuffers* character) const {
+  const std::uint32_t first = as_shadow ? mesh.first_shadow_index : mesh.first_index;
+  const std::uint32_t count = as_shadow ? mesh.shadow_index_count : mesh.index_count;
   glBindVertexArray(mesh_array_.Name());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER,
                character != nullptr ? character->indices.Name() : indices_.Name());
-  glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT,
-                           Offset(mesh.first_index * sizeof(std::uint32_t)),
+  glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                           Offset(first * sizeof(std::uint32_t)),
                            static_cast<GLint>(mesh.first_vertex));
 }
 

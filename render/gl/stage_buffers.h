@@ -27,8 +27,10 @@ class StageBuffers {
   void Upload(const DrawList& list);
   void UploadPlates(std::span<const PlateVertex> vertices, TextAtlas& atlas);
 
-  /// Draws a mesh with the indices of its character (null: the list's own).
-  void DrawMesh(const DrawList::Mesh& mesh, const CharacterBuffers* character) const;
+  /// Draws a mesh, or its coarser one that casts the shadow, with the indices of its character
+  /// (null: the list's own).
+  void DrawMesh(const DrawList::Mesh& mesh, bool as_shadow,
+                const CharacterBuffers* character) const;
   void DrawSpots(bool glows) const;
   void DrawSquare() const;
   /// The floor as three by three patches that share their corners: lines at these x and z.
