@@ -22,7 +22,27 @@ struct Placed {
   double distance = 0.0;
   glm::vec2 min{0.0f}, max{0.0f};  // pixels, y down
   std::vector<TextAtlas::Quad> quads;
+
+  float Height() const { return max.y - min.y; }
 };
+
+void MoveTo(float top, Placed& p) {
+  const float height = p.Height();
+  p.min.y = top;
+  p.max.y = top + height;
+}
+
+/// Moves a plate down (or up) until it covers none of the others.
+void GiveWay(std::span<const Placed> others, float gap, bool down, Placed& p) {
+  // Each move passes one of the others for good: there are no more moves than plates.
+  for (std::size_t moves = 0; moves <= others.size(); ++moves) {
+    const auto covered = std::find_if(others.begin(), others.end(), [&](const Placed& o) {
+      return p.min.x <= o.max.x && p.max.x >= o.min.x && p.min.y <= o.max.y && p.max.y >= o.min.y;
+    });
+    if (covered == others.end()) return;
+    MoveTo(down ? covered->max.y + gap : covered->min.y - gap - p.Height(), p);
+  }
+}
 
 /// Clip depth at which a plate is drawn: a little nearer than its anchor and than the floor behind
 /// its lower edge, so that neither the own toes nor the floor cut it, but bodies before it do.
@@ -88,7 +108,10 @@ void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera,
   std::vector<Placed> placed;
   for (const DrawList::Plate& plate : plates) {
     const std::optional<Vec3> pixel = camera.Project(plate.anchor_ws, size);
-    if (!pixel) continue;
+    if (!pixel || pixel->x < 0.0 || pixel->x > size.width || pixel->y < 0.0 ||
+        pixel->y > size.height) {
+      continue;
+    }
     Placed& p = placed.emplace_back();
     p.plate = &plate;
     p.distance = pixel->z;
@@ -97,24 +120,18 @@ void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera,
     p.min = {snap(static_cast<float>(pixel->x) - 0.5f * width), snap(static_cast<float>(pixel->y))};
     p.max = p.min + glm::vec2{std::ceil(width), snap(s * kHeight)};
   }
-  // The nearest keep their place; others give way downwards.
+  // The nearest keep their place; others give way downwards, or upwards at the picture's edge.
   std::stable_sort(placed.begin(), placed.end(),
                    [](const Placed& a, const Placed& b) { return a.distance < b.distance; });
-  for (std::size_t i = 1; i < placed.size(); ++i) {
-    for (std::size_t tries = 0, k = 0; k < i && tries < 32; ++k) {
-      const Placed& other = placed[k];
-      Placed& p = placed[i];
-      const bool apart = p.min.x > other.max.x || p.max.x < other.min.x || p.min.y > other.max.y ||
-                         p.max.y < other.min.y;
-      if (apart) continue;
-      const float down = other.max.y + snap(3.0f * s) - p.min.y;
-      p.min.y += down;
-      p.max.y += down;
-      k = static_cast<std::size_t>(-1);
-      ++tries;
-    }
+  const float gap = snap(3.0f * s);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const std::span<const Placed> nearer(placed.data(), i);
+    const float wanted = placed[i].min.y;
+    GiveWay(nearer, gap, true, placed[i]);
+    if (placed[i].max.y <= static_cast<float>(size.height) - gap) continue;
+    MoveTo(std::min(wanted, static_cast<float>(size.height) - gap - placed[i].Height()), placed[i]);
+    GiveWay(nearer, gap, false, placed[i]);
   }
-
   for (Placed& p : placed) p.depth = DepthOf(p, camera, clip, size);
   Writer writer(size, out);
   for (auto it = placed.rbegin(); it != placed.rend(); ++it) {

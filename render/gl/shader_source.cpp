@@ -16,22 +16,16 @@ const ShaderFile* Find(std::string_view name, std::span<const ShaderFile> files)
   return it == files.end() ? nullptr : &*it;
 }
 
-std::string LineDirective(std::size_t line, std::size_t file) {
-  return "#line " + std::to_string(line) + " " + std::to_string(file) + "\n";
-}
-
 Result<void> Append(const ShaderFile& file, std::span<const ShaderFile> files, int depth,
                     ShaderSource& out) {
-  const std::size_t number = out.files.size();
-  out.files.emplace_back("shaders/" + std::string(file.name));
-  out.text += LineDirective(1, number);
-  std::size_t line = 1;
+  int line = 1;
   for (std::string_view rest = file.text; !rest.empty(); ++line) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view text = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (!text.starts_with("#include \"")) {
       out.text.append(text).push_back('\n');
+      out.places.push_back({file.name, line});
       continue;
     }
     const std::string_view name = text.substr(10, text.find('"', 10) - 10);
@@ -41,7 +35,6 @@ Result<void> Append(const ShaderFile& file, std::span<const ShaderFile> files, i
                    ": cannot include \"" + std::string(name) + "\"."};
     }
     if (Result<void> ok = Append(*included, files, depth + 1, out); !ok) return ok;
-    out.text += LineDirective(line + 1, number);
   }
   return {};
 }
@@ -52,19 +45,24 @@ std::size_t Digits(std::string_view text) {
   return n <= 6 ? n : 0;
 }
 
-/// "0:12(3): error: x" and "0(12) : error: x" become "shaders/a.frag:12: error: x".
+/// "0:12(3): error: x" and "0(12) : error: x" become "shaders/a.frag:9: error: x".
 std::string ReadableLine(std::string_view line, const ShaderSource& source) {
   const std::size_t a = Digits(line);
   if (a == 0 || a >= line.size() || (line[a] != ':' && line[a] != '(')) return std::string(line);
   const std::size_t b = Digits(line.substr(a + 1));
-  const std::size_t file = static_cast<std::size_t>(std::stoul(std::string(line.substr(0, a))));
-  if (b == 0 || file >= source.files.size()) return std::string(line);
+  if (b == 0) return std::string(line);
+  const std::size_t number = std::stoul(std::string(line.substr(a + 1, b)));
+  if (number == 0 || number > source.places.size() || source.places[number - 1].line == 0) {
+    return std::string(line);
+  }
+  const ShaderSource::Place& place = source.places[number - 1];
   std::string_view rest = line.substr(a + 1 + b);
   if (!rest.empty() && (rest[0] == '(' || rest[0] == ')')) {
     rest.remove_prefix(std::min(rest.find(')') + 1, rest.size()));
   }
   while (!rest.empty() && (rest[0] == ' ' || rest[0] == ':')) rest.remove_prefix(1);
-  return source.files[file] + ":" + std::string(line.substr(a + 1, b)) + ": " + std::string(rest);
+  return "shaders/" + std::string(place.file) + ":" + std::to_string(place.line) + ": " +
+         std::string(rest);
 }
 
 }  // namespace
@@ -75,7 +73,9 @@ Result<ShaderSource> LoadShader(std::string_view name, std::span<const std::stri
   if (file == nullptr) return Error{"shaders/" + std::string(name) + ": no such shader."};
   ShaderSource source;
   source.text = "#version 330 core\n";
+  source.places.emplace_back();
   for (const std::string_view define : defines) {
+    source.places.emplace_back();
     source.text += "#define " + std::string(define) + " 1\n";
   }
   if (Result<void> ok = Append(*file, files, 0, source); !ok) return Error{ok.error()};
