@@ -16,6 +16,7 @@
 #include "assets/gltf/gltf_document.h"
 #include "assets/gltf/gltf_model.h"
 #include "assets/gltf/scene_reader.h"
+#include "assets/gltf/weight_repair.h"
 #include "core/skeleton/rest_alignment.h"
 
 namespace ego {
@@ -221,15 +222,18 @@ class Builder {
 
   /// VRM 1.0 human bones, where the rig has all that VRM requires.
   void AddVrm() {
+    std::array<int, kJointCount> node = character_.rig.node;
+    // VRM wants the lowest joint of the trunk to be its spine.
+    const auto trunk = node.begin() + static_cast<std::ptrdiff_t>(Index(J::kSpine));
+    std::stable_partition(trunk, trunk + 3, [](int n) { return n >= 0; });
     Json bones;
     for (std::size_t j = 0; j < kJointCount; ++j) {
-      const int node = character_.rig.node[j];
       const auto joint = static_cast<J>(j);
       const bool optional = joint == J::kChest || joint == J::kUpperChest || joint == J::kNeck ||
                             joint == J::kLeftShoulder || joint == J::kRightShoulder ||
                             joint == J::kLeftToes || joint == J::kRightToes;
-      if (node < 0 && !optional) return;
-      if (node >= 0) bones[std::string(Name(joint))] = {{"node", node}};
+      if (node[j] < 0 && !optional) return;
+      if (node[j] >= 0) bones[std::string(Name(joint))] = {{"node", node[j]}};
     }
     root_["extensionsUsed"] = {"VRMC_vrm"};
     root_["extensions"]["VRMC_vrm"] = {{"specVersion", "1.0"},
@@ -270,6 +274,7 @@ Result<GltfDocument> Reopened(const Character& character, std::vector<int>& node
                  " when it was read"};
   }
   node_of = order->node_of;
+  NormalizeWeights(*document);
   return document;
 }
 

@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: MIT
+#include "assets/gltf/character_file.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "assets/gltf/gltf_document.h"
+
+namespace ego {
+namespace {
+
+using Json = nlohmann::json;
+using J = HumanoidJoint;
+
+/// A small humanoid of 15 joints with one square of skin on every joint, as JSON and binary, for
+/// each test to bend in its own way.
+struct Sample {
+  Json root;
+  std::vector<std::uint8_t> bin;
+
+  std::size_t View(const void* data, std::size_t bytes) {
+    bin.resize((bin.size() + 3) / 4 * 4);
+    const std::size_t at = bin.size();
+    bin.resize(at + bytes);
+    std::memcpy(bin.data() + at, data, bytes);
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", bytes}});
+    return root["bufferViews"].size() - 1;
+  }
+  template <class T>
+  std::size_t Accessor(const std::vector<T>& data, int component, const char* type,
+                       std::size_t width) {
+    const std::size_t view = View(data.data(), data.size() * sizeof(T));
+    root["accessors"].push_back({{"bufferView", view},
+                                 {"componentType", component},
+                                 {"count", data.size() / width},
+                                 {"type", type}});
+    return root["accessors"].size() - 1;
+  }
+  Json& Attribute(const char* name) {
+    return root["meshes"][0]["primitives"][0]["attributes"][name];
+  }
+  Json& AccessorOf(const char* name) {
+    return root["accessors"][Attribute(name).get<std::size_t>()];
+  }
+  std::vector<std::uint8_t> Glb() {
+    root["buffers"] = {{{"byteLength", bin.size()}}};
+    return PackGlb(root.dump(), bin);
+  }
+};
+
+struct Bone {
+  const char* name;
+  int parent;
+  Vec3 at;
+};
+
+const std::vector<Bone>& Bones() {
+  static const std::vector<Bone> bones = {
+      {"Hips", -1, {0, 1, 0}},          {"Spine", 0, {0, 1.2, 0}},
+      {"Head", 1, {0, 1.6, 0}},         {"LeftArm", 1, {.2, 1.4, 0}},
+      {"LeftForeArm", 3, {.5, 1.4, 0}}, {"LeftHand", 4, {.75, 1.4, 0}},
+      {"RightArm", 1, {-.2, 1.4, 0}},   {"RightForeArm", 6, {-.5, 1.4, 0}},
+      {"RightHand", 7, {-.75, 1.4, 0}}, {"LeftUpLeg", 0, {.1, .95, 0}},
+      {"LeftLeg", 9, {.1, .5, 0}},      {"LeftFoot", 10, {.1, .1, 0}},
+      {"RightUpLeg", 0, {-.1, .95, 0}}, {"RightLeg", 12, {-.1, .5, 0}},
+      {"RightFoot", 13, {-.1, .1, 0}}};
+  return bones;
+}
+
+Sample MakeSample(double unit = 1.0) {
+  Sample s;
+  s.root["asset"] = {{"version", "2.0"}};
+  s.root["scenes"] = {{{"nodes", {0, 15}}}};
+  std::vector<float> bind;
+  std::vector<float> positions;
+  std::vector<std::uint8_t> joints;
+  std::vector<float> weights;
+  std::vector<std::uint16_t> indices;
+  for (std::size_t b = 0; b < Bones().size(); ++b) {
+    const Bone& bone = Bones()[b];
+    const Vec3 from =
+        bone.parent < 0 ? Vec3(0.0) : Bones()[static_cast<std::size_t>(bone.parent)].at;
+    const Vec3 t = unit * (bone.at - from);
+    s.root["nodes"].push_back({{"name", bone.name}, {"translation", {t.x, t.y, t.z}}});
+    if (bone.parent >= 0) {
+      s.root["nodes"][static_cast<std::size_t>(bone.parent)]["children"].push_back(b);
+    }
+    for (int c = 0; c < 16; ++c) bind.push_back(c % 5 == 0 ? 1.0f : 0.0f);
+    for (int c = 0; c < 3; ++c) {
+      bind[b * 16 + 12 + static_cast<std::size_t>(c)] = static_cast<float>(-unit * bone.at[c]);
+    }
+    for (int corner = 0; corner < 4; ++corner) {
+      positions.push_back(static_cast<float>(unit * (bone.at.x + (corner % 2 == 0 ? -.02 : .02))));
+      positions.push_back(static_cast<float>(unit * (bone.at.y + (corner < 2 ? -.02 : .02))));
+      positions.push_back(static_cast<float>(unit * bone.at.z));
+      joints.insert(joints.end(), {static_cast<std::uint8_t>(b), 0, 0, 0});
+      weights.insert(weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+    }
+    const auto first = static_cast<std::uint16_t>(4 * b);
+    for (const int corner : {0, 1, 2, 2, 1, 3}) {
+      indices.push_back(static_cast<std::uint16_t>(first + corner));
+    }
+  }
+  s.root["nodes"].push_back({{"name", "Skin"}, {"mesh", 0}, {"skin", 0}});
+  std::vector<int> all;
+  for (int b = 0; b < 15; ++b) all.push_back(b);
+  s.root["skins"] = {
+      {{"joints", all}, {"inverseBindMatrices", s.Accessor(bind, 5126, "MAT4", 16)}}};
+  Json attributes;
+  attributes["POSITION"] = s.Accessor(positions, 5126, "VEC3", 3);
+  attributes["JOINTS_0"] = s.Accessor(joints, 5121, "VEC4", 4);
+  attributes["WEIGHTS_0"] = s.Accessor(weights, 5126, "VEC4", 4);
+  s.root["meshes"] = {
+      {{"name", "Skin"},
+       {"primitives",
+        {{{"attributes", attributes}, {"indices", s.Accessor(indices, 5123, "SCALAR", 1)}}}}}};
+  return s;
+}
+
+Result<Character> Parse(Sample sample) { return ParseCharacter(sample.Glb(), "sample.glb"); }
+
+/// The vertices in the canonical pose.
+std::vector<Vec3> Placed(const Character& character) {
+  std::vector<Mat4> node(character.nodes.joints.size());
+  const Skeleton& skeleton = character.rig.skeleton;
+  PoseNodes(character.rig, ForwardKinematics(skeleton, CanonicalPose(skeleton)), node);
+  std::vector<Vec3> out;
+  for (const MeshPart& part : character.parts) {
+    for (std::size_t v = 0; v < part.positions.size(); ++v) {
+      Vec4 p(0.0);
+      for (std::size_t k = 0; k < MeshPart::kInfluences; ++k) {
+        const PaletteEntry& entry = character.palette[part.influences[v].entry[k]];
+        p += static_cast<double>(part.influences[v].weight[k]) *
+             (node[static_cast<std::size_t>(entry.node)] * entry.inverse_bind *
+              Vec4(Vec3(part.positions[v]), 1.0));
+      }
+      out.emplace_back(p);
+    }
+  }
+  return out;
+}
+
+void ExpectSameShape(const Character& a, const Character& b) {
+  const auto pa = Placed(a);
+  const auto pb = Placed(b);
+  ASSERT_EQ(pa.size(), pb.size());
+  for (std::size_t i = 0; i < pa.size(); ++i) EXPECT_LT(glm::length(pa[i] - pb[i]), 1e-5) << i;
+}
+
+TEST(ReadCharacter, ReadsAPlainHumanoid) {
+  const auto character = Parse(MakeSample());
+  ASSERT_TRUE(character) << character.error();
+  EXPECT_EQ(character->nodes.joints.size(), 16u);
+  EXPECT_EQ(character->parts.at(0).triangles.size(), 90u);
+  const auto at = CanonicalPositions(character->rig.skeleton);
+  EXPECT_NEAR(at[Index(J::kHips)].y, 1.0 - 0.08, 1e-6);  // the lowest skin is at 0.08
+  EXPECT_NEAR(at[Index(J::kLeftHand)].x, 0.75, 1e-6);
+  for (const glm::vec3& normal : character->parts[0].normals) {
+    EXPECT_NEAR(glm::length(normal), 1.0f, 1e-6f);
+    EXPECT_NEAR(std::abs(normal.z), 1.0f, 1e-5f);  // computed: the squares face along z
+  }
+}
+
+TEST(ReadCharacter, NodePoseThatDiffersFromTheBindPoseDoesNotMatter) {
+  const auto plain = Parse(MakeSample());
+  Sample posed = MakeSample();
+  posed.root["nodes"][3]["rotation"] = {0.0, 0.0, -0.7071067811865476, 0.7071067811865476};
+  posed.root["nodes"][10]["rotation"] = {0.5, 0.5, 0.5, 0.5};
+  const auto character = Parse(posed);
+  ASSERT_TRUE(plain && character) << character.error();
+  ExpectSameShape(*plain, *character);
+}
+
+TEST(ReadCharacter, UnitsAndAxesOfTheNodeTreeDoNotMatter) {
+  const auto plain = Parse(MakeSample());
+  Sample turned = MakeSample(100.0);
+  // An armature above the hips turns Z up to Y up and centimetres to metres; bones in Z up.
+  turned.root["nodes"].push_back(
+      {{"name", "Armature"}, {"scale", {0.01, 0.01, 0.01}}, {"children", {0}}});
+  turned.root["scenes"][0]["nodes"] = {16, 15};
+  const auto character = Parse(turned);
+  ASSERT_TRUE(plain && character) << character.error();
+  ExpectSameShape(*plain, *character);
+  EXPECT_EQ(character->rig.metres_per_unit, 1.0);
+}
+
+TEST(ReadCharacter, CentimetresAreReadAsSuchWithANote) {
+  const auto plain = Parse(MakeSample());
+  const auto character = Parse(MakeSample(100.0));
+  ASSERT_TRUE(plain && character) << character.error();
+  EXPECT_NEAR(character->rig.metres_per_unit, 0.01, 1e-12);
+  EXPECT_FALSE(character->notes.empty());
+  ExpectSameShape(*plain, *character);
+}
+
+TEST(ReadCharacter, ReadsEveryWayToStoreTheSameSkin) {
+  const auto plain = Parse(MakeSample());
+  ASSERT_TRUE(plain);
+  std::vector<std::pair<const char*, std::function<void(Sample&)>>> ways = {
+      {"16-bit joints",
+       [](Sample& s) {
+         std::vector<std::uint16_t> joints;
+         for (std::uint16_t b = 0; b < 15; ++b) {
+           for (int i = 0; i < 4; ++i) joints.insert(joints.end(), {b, 0, 0, 0});
+         }
+         s.Attribute("JOINTS_0") = s.Accessor(joints, 5123, "VEC4", 4);
+       }},
+      {"normalised 8-bit weights",
+       [](Sample& s) {
+         std::vector<std::uint8_t> weights;
+         for (int i = 0; i < 60; ++i) weights.insert(weights.end(), {255, 0, 0, 0});
+         s.Attribute("WEIGHTS_0") = s.Accessor(weights, 5121, "VEC4", 4);
+         s.AccessorOf("WEIGHTS_0")["normalized"] = true;
+       }},
+      {"eight influences",
+       [](Sample& s) {
+         s.Attribute("JOINTS_1") = s.Attribute("JOINTS_0");
+         s.Attribute("WEIGHTS_1") = s.Attribute("WEIGHTS_0");
+       }},
+      {"weights that do not sum to one",
+       [](Sample& s) {
+         std::vector<float> weights;
+         for (int i = 0; i < 60; ++i) weights.insert(weights.end(), {0.25f, 0.0f, 0.0f, 0.0f});
+         s.Attribute("WEIGHTS_0") = s.Accessor(weights, 5126, "VEC4", 4);
+       }},
+      {"strided positions",
+       [](Sample& s) {
+         const auto view = s.AccessorOf("POSITION")["bufferView"].get<std::size_t>();
+         const auto from = s.root["bufferViews"][view]["byteOffset"].get<std::size_t>();
+         std::vector<float> wide;
+         for (std::size_t v = 0; v < 60; ++v) {
+           float p[3];
+           std::memcpy(p, s.bin.data() + from + 12 * v, 12);
+           wide.insert(wide.end(), {99.0f, p[0], p[1], p[2], 99.0f});
+         }
+         Json& accessor = s.AccessorOf("POSITION");
+         const std::size_t at = s.View(wide.data(), wide.size() * 4);
+         s.root["bufferViews"][at]["byteStride"] = 20;
+         accessor["bufferView"] = at;
+         accessor["byteOffset"] = 4;
+       }},
+      {"sparse positions",
+       [](Sample& s) {
+         // All of the positions as sparse values over zeros.
+         const Json dense = s.AccessorOf("POSITION");
+         std::vector<std::uint16_t> index;
+         for (std::uint16_t v = 0; v < 60; ++v) index.push_back(v);
+         const std::size_t at = s.View(index.data(), index.size() * 2);
+         Json& accessor = s.AccessorOf("POSITION");
+         accessor.erase("bufferView");
+         accessor["sparse"] = {{"count", 60},
+                               {"indices", {{"bufferView", at}, {"componentType", 5123}}},
+                               {"values", {{"bufferView", dense["bufferView"]}}}};
+       }},
+      {"several primitives and skins",
+       [](Sample& s) {
+         s.root["skins"].push_back(s.root["skins"][0]);
+         s.root["nodes"][15]["skin"] = 1;
+       }},
+      {"a helper joint in the skin",
+       [](Sample& s) {
+         s.root["nodes"].push_back({{"name", "LeftArmTwist"}});
+         s.root["nodes"][3]["children"].push_back(16);
+       }},
+  };
+  for (auto& [what, change] : ways) {
+    SCOPED_TRACE(what);
+    Sample sample = MakeSample();
+    change(sample);
+    const auto character = Parse(sample);
+    ASSERT_TRUE(character) << character.error();
+    ExpectSameShape(*plain, *character);
+  }
+}
+
+TEST(ReadCharacter, ReadsStripsFansAndPlainVertices) {
+  for (const int mode : {4, 5, 6}) {
+    Sample sample = MakeSample();
+    Json& primitive = sample.root["meshes"][0]["primitives"][0];
+    primitive["mode"] = mode;
+    primitive.erase("indices");
+    const auto character = Parse(sample);
+    ASSERT_TRUE(character) << character.error();
+    EXPECT_EQ(character->parts[0].triangles.size(), mode == 4 ? 60u : 58u * 3u);
+  }
+}
+
+TEST(ReadCharacter, RigidMeshesHangOnTheirJoint) {
+  Sample sample = MakeSample();
+  sample.root["nodes"].push_back({{"name", "Cup"}, {"mesh", 1}, {"translation", {0.1, 0, 0}}});
+  sample.root["nodes"][5]["children"].push_back(16);
+  Json primitive;
+  primitive["attributes"]["POSITION"] = sample.Attribute("POSITION");
+  sample.root["meshes"].push_back({{"name", "Cup"}, {"primitives", {primitive}}});
+  const auto character = Parse(sample);
+  ASSERT_TRUE(character) << character.error();
+  ASSERT_EQ(character->parts.size(), 2u);
+  const auto placed = Placed(*character);
+  // Parts come in the order of the nodes. First vertex of the cup: its own position, moved by the
+  // hand and by the ground.
+  EXPECT_NEAR(placed[0].x, -0.02 + 0.75 + 0.1, 1e-5);
+  EXPECT_NEAR(placed[0].y, 0.98 + 1.4 - 0.08, 1e-5);
+}
+
+TEST(ReadCharacter, TakesVrmBonesOverNames) {
+  for (const bool old : {true, false}) {
+    Sample sample = MakeSample();
+    constexpr std::array kBones = {
+        "hips",         "spine",         "head",          "leftUpperArm",  "leftLowerArm",
+        "leftHand",     "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg",
+        "leftLowerLeg", "leftFoot",      "rightUpperLeg", "rightLowerLeg", "rightFoot"};
+    Json bones = old ? Json::array() : Json::object();
+    for (std::size_t b = 0; b < kBones.size(); ++b) {
+      sample.root["nodes"][b]["name"] = "x";
+      if (old) {
+        bones.push_back({{"bone", kBones[b]}, {"node", b}});
+      } else {
+        bones[kBones[b]] = {{"node", b}};
+      }
+    }
+    sample.root["extensions"][old ? "VRM" : "VRMC_vrm"] = {{"humanoid", {{"humanBones", bones}}}};
+    const auto character = Parse(sample);
+    ASSERT_TRUE(character) << character.error();
+    EXPECT_EQ(character->map.Node(J::kRightFoot), 14);
+    EXPECT_EQ(character->map.joint[Index(J::kHead)].confidence, 1.0);
+    EXPECT_NEAR(CanonicalPositions(character->rig.skeleton)[Index(J::kLeftHand)].x, 0.75, 1e-5);
+  }
+}
+
+TEST(ReadCharacter, RefusesBrokenFilesWithOneSentence) {
+  const std::vector<std::pair<const char*, std::function<void(Sample&)>>> breaks = {
+      {"child", [](Sample& s) { s.root["nodes"][5]["children"] = {77}; }},
+      {"ancestor",
+       [](Sample& s) {
+         s.root["nodes"].push_back({{"name", "a"}, {"children", {17}}});
+         s.root["nodes"].push_back({{"name", "b"}, {"children", {16}}});
+       }},
+      {"two parents", [](Sample& s) { s.root["nodes"][5]["children"] = {2}; }},
+      {"scene refers", [](Sample& s) { s.root["scenes"][0]["nodes"] = {1000}; }},
+      {"skin", [](Sample& s) { s.root["nodes"][15]["skin"] = 4; }},
+      {"mesh", [](Sample& s) { s.root["nodes"][15]["mesh"] = 4; }},
+      {"skin 0 refers", [](Sample& s) { s.root["skins"][0]["joints"][3] = 99; }},
+      {"inverse bind matrices", [](Sample& s) { s.root["accessors"][0]["count"] = 3; }},
+      {"POSITION refers", [](Sample& s) { s.Attribute("POSITION") = 1000; }},
+      {"POSITION", [](Sample& s) { s.AccessorOf("POSITION")["count"] = 4000; }},
+      {"elements", [](Sample& s) { s.AccessorOf("POSITION")["count"] = 4000000000u; }},
+      {"shape", [](Sample& s) { s.AccessorOf("POSITION")["type"] = "VEC2"; }},
+      {"sparse",
+       [](Sample& s) {
+         s.AccessorOf("POSITION")["sparse"] = {
+             {"count", 60},
+             {"indices", {{"bufferView", 0}, {"byteOffset", 0}, {"componentType", 5125}}},
+             {"values", {{"bufferView", 99}}}};
+       }},
+      {"skin joint",
+       [](Sample& s) {
+         std::vector<std::uint8_t> joints(240, 200);
+         s.Attribute("JOINTS_0") = s.Accessor(joints, 5121, "VEC4", 4);
+       }},
+      {"vertex index",
+       [](Sample& s) {
+         std::vector<std::uint16_t> indices{0, 1, 60000};
+         s.root["meshes"][0]["primitives"][0]["indices"] = s.Accessor(indices, 5123, "SCALAR", 1);
+       }},
+      {"finite",
+       [](Sample& s) {
+         std::vector<float> positions(180, std::nanf(""));
+         s.Attribute("POSITION") = s.Accessor(positions, 5126, "VEC3", 3);
+       }},
+      {"material", [](Sample& s) { s.root["meshes"][0]["primitives"][0]["material"] = 3; }},
+      {"past the end", [](Sample& s) { s.root["bufferViews"][1]["byteLength"] = 1000000; }},
+      {"buffer", [](Sample& s) { s.root["bufferViews"][1]["buffer"] = 3; }},
+      {"byteOffset", [](Sample& s) { s.root["bufferViews"][1]["byteOffset"] = -5; }},
+      {"Draco", [](Sample& s) { s.root["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }},
+      {"ACME_unknown", [](Sample& s) { s.root["extensionsRequired"] = {"ACME_unknown"}; }},
+      {"version", [](Sample& s) { s.root["asset"]["version"] = "1.0"; }},
+      {"VRM bone",
+       [](Sample& s) {
+         s.root["extensions"]["VRMC_vrm"]["humanoid"]["humanBones"]["hips"]["node"] = 500;
+       }},
+      {"missing", [](Sample& s) { s.root["nodes"][9].erase("children"); }},
+      {"meshopt",
+       [](Sample& s) {
+         s.root["bufferViews"][1]["extensions"]["EXT_meshopt_compression"] = {
+             {"buffer", 0},      {"byteOffset", 0},   {"byteLength", 16},
+             {"byteStride", 12}, {"count", 1u << 30}, {"mode", "ATTRIBUTES"}};
+       }},
+  };
+  for (const auto& [word, change] : breaks) {
+    SCOPED_TRACE(word);
+    Sample sample = MakeSample();
+    change(sample);
+    const auto character = Parse(sample);
+    ASSERT_FALSE(character);
+    EXPECT_TRUE(character.error().starts_with("sample.glb: ")) << character.error();
+    EXPECT_NE(character.error().find(word), std::string::npos) << character.error();
+    EXPECT_EQ(character.error().find('\n'), std::string::npos) << character.error();
+  }
+}
+
+TEST(ReadCharacter, RefusesWhatIsNoGltf) {
+  const std::vector<std::uint8_t> glb = MakeSample().Glb();
+  const auto sentence = [](std::span<const std::uint8_t> bytes) {
+    return ParseCharacter(bytes, "x.glb").error();
+  };
+  EXPECT_FALSE(sentence({}).empty());
+  for (const std::size_t size : {3u, 4u, 11u, 19u, 20u, 100u, 4000u}) {
+    EXPECT_FALSE(sentence(std::span(glb).first(size)).empty()) << size;
+  }
+  const std::string text = "solid teapot";
+  EXPECT_NE(sentence(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()))
+                .find("glTF"),
+            std::string::npos);
+  std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":";
+  deep.append(100000, '[');
+  EXPECT_NE(sentence(std::span(reinterpret_cast<const std::uint8_t*>(deep.data()), deep.size()))
+                .find("nested"),
+            std::string::npos);
+}
+
+TEST(ReadCharacter, NeverReadsOutsideItsFolder) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "ego_character_files";
+  std::filesystem::create_directories(folder / "inner");
+  Sample sample = MakeSample();
+  const auto write = [](const std::filesystem::path& path, const auto& bytes) {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  };
+  write(folder / "secret.bin", sample.bin);
+  write(folder / "inner" / "own data.bin", sample.bin);
+  const auto read = [&](const std::string& uri) {
+    sample.root["buffers"] = {{{"byteLength", sample.bin.size()}, {"uri", uri}}};
+    write(folder / "inner" / "a.gltf", sample.root.dump());
+    return ReadCharacter(folder / "inner" / "a.gltf");
+  };
+  EXPECT_TRUE(read("own%20data.bin")) << read("own%20data.bin").error();
+  for (const std::string& uri :
+       std::vector<std::string>{"../secret.bin", "%2e%2e/secret.bin", "x/../../secret.bin",
+                                (folder / "secret.bin").string(),
+                                "file://" + (folder / "secret.bin").string(), "..\\secret.bin"}) {
+    const auto character = read(uri);
+    ASSERT_FALSE(character) << uri;
+    EXPECT_NE(character.error().find("beside it"), std::string::npos) << character.error();
+  }
+  EXPECT_NE(read("absent.bin").error().find("absent.bin"), std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ReadCharacter, StopsWhenAsked) {
+  const auto glb = MakeSample().Glb();
+  const auto character = ParseCharacter(
+      glb, "a.glb", [](double fraction, std::string_view) { return fraction < 0.5; });
+  ASSERT_FALSE(character);
+  EXPECT_EQ(character.error(), "cancelled");
+}
+
+TEST(WriteCharacter, WritesWhatItReadsBack) {
+  const auto character = Parse(MakeSample());
+  ASSERT_TRUE(character) << character.error();
+  const auto path = std::filesystem::path(testing::TempDir()) / "ego_written.glb";
+  const auto written = WriteCharacter(path, *character);
+  ASSERT_TRUE(written) << written.error();
+  const auto again = ReadCharacter(path);
+  ASSERT_TRUE(again) << again.error();
+  ExpectSameShape(*character, *again);
+  EXPECT_EQ(again->map.joint[Index(J::kHips)].confidence, 1.0);  // declared by VRMC_vrm
+  std::filesystem::remove(path);
+}
+
+TEST(WriteRetargeted, RefusesNothingToWriteAndChangedSources) {
+  auto character = Parse(MakeSample());
+  ASSERT_TRUE(character);
+  const auto path = std::filesystem::path(testing::TempDir()) / "ego_refused.glb";
+  EXPECT_FALSE(WriteRetargeted(path, *character, {}, 30.0));
+  const std::vector<Pose> poses{CanonicalPose(character->rig.skeleton)};
+  EXPECT_FALSE(WriteRetargeted(path, *character, poses, 0.0));
+  character->source_path = "/nowhere/absent.glb";
+  const auto written = WriteRetargeted(path, *character, poses, 30.0);
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().find("absent.glb"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+}  // namespace
+}  // namespace ego
