@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <utility>
 #include <vector>
+
+#include "core/geometry/closest_point.h"
 
 namespace ego {
 namespace {
@@ -15,12 +17,14 @@ using J = HumanoidJoint;
 
 constexpr double kTemplateHeight = 1.78;
 constexpr double kMarkerRadius = 0.010;  // centre above the skin
+constexpr double kStandoff = 0.015;      // centre of a marker above the crude mesh
 constexpr double kReach = 0.12;          // how far a marker's pull spreads, template size
-constexpr double kMaxPull = 0.030;       // farthest any sample moves, template size
-constexpr double kMinRadius = 0.80;      // of the template's limb radius
-constexpr double kMaxRadius = 1.30;
-constexpr double kMinFoot = 0.85;  // of the template's foot length
-constexpr double kMaxFoot = 1.20;
+constexpr double kMaxPull = 0.030;       // farthest a trunk sample moves, template size
+constexpr double kMaxHeadPull = 0.012;   // head markers sit on bands and caps
+constexpr double kMinRadius = 0.85;      // of the template's limb radius
+constexpr double kMaxRadius = 1.15;
+constexpr double kMinFoot = 0.90;  // of the template's foot length
+constexpr double kMaxFoot = 1.10;
 
 struct PlacedMarker {
   const SetMarker* place = nullptr;
@@ -40,18 +44,30 @@ std::vector<PlacedMarker> PlaceMarkers(const SkeletonFit& fit, const MarkerSet& 
 
 Vec3 Reflected(const Vec3& v) { return {-v.x, v.y, v.z}; }
 
-/// How the body's samples moved from the template's around a place of the template.
-Vec3 CarriedAlong(const Vec3& place, const Body& from, const Body& to, bool head) {
-  Vec3 moved{0.0};
-  double total = 0.0;
-  for (std::size_t i = 0; i < kSampleCount; ++i) {
-    if (IsHead(static_cast<SamplePoint>(i)) != head) continue;
-    const double d = glm::distance(place, from.surface.sample_ms[i]);
-    const double weight = 1.0 / (d * d * d + 1e-6);
-    moved += weight * (to.surface.sample_ms[i] - from.surface.sample_ms[i]);
-    total += weight;
+/// Distance of a point from the crude trunk or head mesh in the canonical pose, positive outside.
+double Standoff(const Body& body, const Vec3& point, bool head) {
+  const std::size_t first = head ? kTrunkTriangleCount : 0;
+  const std::size_t last = head ? kTriangleCount : kTrunkTriangleCount;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t t = first; t < last; ++t) {
+    const SampleTriangle& corners = SampleTriangles()[t];
+    const auto corner = [&](std::size_t k) { return body.surface.sample_ms[Index(corners[k])]; };
+    const Triangle triangle = Triangle::Of(corner(0), corner(1), corner(2));
+    const Vec3 away = point - AtBarycentric(triangle, ClosestOnTriangle(triangle, point));
+    const double distance = glm::length(away);
+    if (distance >= std::abs(nearest)) continue;
+    nearest = glm::dot(away, triangle.normal) < 0.0 ? -distance : distance;
   }
-  return place + moved / total;
+  return nearest;
+}
+
+/// How far the surface should move outward for a marker that stands off this far. The crude mesh
+/// cuts corners, so a marker may stand off by anything between its own thickness and what it
+/// does on the template without the template being wrong.
+double WantedPull(double standoff, double on_template) {
+  const double least = std::min(kStandoff, on_template);
+  const double most = std::max(kStandoff, on_template);
+  return standoff - std::clamp(standoff, least, most);
 }
 
 /// Where the surface faces at a place of the template: away from the trunk's or head's axis.
@@ -81,15 +97,13 @@ void PullSamples(const std::vector<PlacedMarker>& markers, const Body& average, 
     }
     const bool head = region == MarkerRegion::kHead;
     const Vec3& place = marker.place->position_ms;
-    const Vec3 expected = CarriedAlong(place, average, body, head);
-    const Vec3 out = Outward(place, head);
-    const double outward = glm::dot(marker.position_ms - expected, out);
+    const double outward = WantedPull(Standoff(body, marker.position_ms, head),
+                                      scale * Standoff(average, place, head));
     const double weight = 1.0 / (marker.place->sigma * marker.place->sigma);
     pulls.push_back({place, outward, weight, head});
     pulls.push_back({Reflected(place), outward, weight, head});
   }
   if (pulls.empty()) return;
-  const double limit = kMaxPull * scale;
   // Pull of the template itself, so that a lone far marker moves its surroundings only in part.
   constexpr double kInertia = 1.0 / (0.04 * 0.04);
   for (std::size_t i = 0; i < kSampleCount; ++i) {
@@ -104,6 +118,7 @@ void PullSamples(const std::vector<PlacedMarker>& markers, const Body& average, 
       sum += weight * pull.outward;
       total += weight;
     }
+    const double limit = scale * (head ? kMaxHeadPull : kMaxPull);
     const double outward = std::clamp(sum / total, -limit, limit);
     Vec3 out = Outward(place, head);
     if (Mirror(static_cast<SamplePoint>(i)) == static_cast<SamplePoint>(i)) out.x = 0.0;
@@ -138,7 +153,9 @@ void FitRadii(const std::vector<PlacedMarker>& markers, const Body& average, dou
       }
     }
     if (expected <= 0.0) continue;
-    body.surface.limb_radius[s] *= std::clamp(seen / expected, kMinRadius, kMaxRadius);
+    // Half-way: wands, plates and clothes stand off the skin, and offsets are estimates themselves.
+    const double factor = 0.5 * (1.0 + seen / expected);
+    body.surface.limb_radius[s] *= std::clamp(factor, kMinRadius, kMaxRadius);
   }
 }
 

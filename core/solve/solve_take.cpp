@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/body/surface_fit.h"
 #include "core/solve/performer_surface.h"
 #include "core/solve/pose_gaps.h"
 #include "core/solve/standing.h"
@@ -175,6 +176,7 @@ Result<SolvedTake> SolveTake(const MarkerTake& take, const MarkerSet& set,
   SolveReport& report = result.report;
   Measure(*markers, fit.model, poses, solved, report);
   for (Pose& pose : poses) pose.root_ws.y += motion.floor_offset;
+  FitSurfaceToMotion(motion.performer, poses);
   motion.poses = std::move(poses);
   motion.markers = std::move(markers);
 

@@ -54,9 +54,9 @@ struct SolvedTake {
 
 /// Solves an archive take that comes with no calibration: fits skeleton and marker places
 /// (FitSkeleton), solves every frame (PoseSolver), fills frames without markers from their
-/// neighbours, puts the soles of standing feet on y = 0 and builds the performer's surface.
-/// `motion.markers` are the take's own, turned upright where the file was not; their heights do
-/// not contain `floor_offset` yet, the poses do.
+/// neighbours, puts the soles of standing feet on y = 0 and builds the performer's surface, which
+/// is pulled in where the motion proves it free. `motion.markers` are the take's own, turned
+/// upright where the file was not; their heights do not contain `floor_offset` yet, the poses do.
 /// Error: too few known markers, impossible sizes, or cancelled; one sentence naming the take.
 Result<SolvedTake> SolveTake(const MarkerTake& take, const MarkerSet& set,
                              const SolveOptions& options = {}, const Progress& progress = {});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/markers/marker_set_file.h"
+#include "core/solve/performer_surface.h"
 #include "core/solve/solve_take.h"
 #include "core/solve/standing.h"
 #include "tests/support/synthetic_performer.h"
@@ -233,6 +234,43 @@ TEST(PoseSolver, HoldsThePoseWhenTooLittleIsSeen) {
   const Pose held = state.pose;
   EXPECT_FALSE(solver.Solve(dark.Frame(1), state).solved);
   EXPECT_EQ(state.pose.rotation_ls, held.rotation_ls);
+}
+
+TEST(PerformerBody, IsSymmetricAndFollowsTheMarkersWithinBounds) {
+  const MarkerSet& set = SetNamed("Studio 38");
+  SkeletonFit fit = KnownPerformer().fit;
+  fit.scale = 1.0;
+  fit.model.skeleton = TemplateSkeleton(1.78);
+  const auto canonical = CanonicalPositions(fit.model.skeleton);
+  const auto dress = [&](double thicker) {  // markers on a body thicker all round by this much
+    for (std::size_t m = 0; m < fit.model.markers.size(); ++m) {
+      BoundMarker& marker = fit.model.markers[m];
+      const SetMarker& place = set.markers[fit.set_marker[m]];
+      marker.offset_ls = place.position_ms - canonical[Index(place.joint)];
+      Vec3 out{place.position_ms.x, 0.0, place.position_ms.z};
+      if (place.region == MarkerRegion::kLimb) {
+        out = place.position_ms.y > 1.2 ? Vec3{0.0, 1.0, 0.0} : Vec3{place.position_ms.x, 0, 0};
+      }
+      marker.offset_ls += thicker * glm::normalize(out);
+    }
+    return PerformerBody("someone", fit, set);
+  };
+  const Body average = TemplateBody();
+  const Body usual = dress(0.0);
+  const Body fat = dress(0.05);
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    const auto point = static_cast<SamplePoint>(i);
+    const Vec3& p = fat.surface.sample_ms[i];
+    const Vec3& m = fat.surface.sample_ms[Index(Mirror(point))];
+    EXPECT_LT(glm::distance(p, Vec3{-m.x, m.y, m.z}), 1e-9) << Name(point);
+    // What is as on the template leaves the template; what is thicker moves out, not too far.
+    EXPECT_LT(glm::distance(usual.surface.sample_ms[i], average.surface.sample_ms[i]), 1e-3);
+    EXPECT_LT(glm::distance(p, average.surface.sample_ms[i]), 0.031);
+  }
+  EXPECT_GT(fat.surface.sample_ms[Index(SamplePoint::kSternumBase)].z,
+            usual.surface.sample_ms[Index(SamplePoint::kSternumBase)].z + 0.01);
+  EXPECT_GT(fat.surface.limb_radius[0], 1.1 * usual.surface.limb_radius[0]);
+  EXPECT_LT(fat.surface.limb_radius[0], 1.16 * usual.surface.limb_radius[0]);
 }
 
 TEST(SolveTake, FillsFramesWithoutMarkersSmoothlyAndSaysSo) {
