@@ -19,7 +19,7 @@ namespace ego {
 namespace {
 
 // Starts ffmpeg with its standard input at the end of a new pipe; writes the other end to `pipe`.
-int Spawn(const std::vector<std::string>& arguments, pid_t& child, int& pipe) {
+int Spawn(const std::vector<std::string>& arguments, int& child, int& pipe) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return errno;
   posix_spawn_file_actions_t actions;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 
 #include "core/base/result.h"
@@ -32,7 +30,7 @@ class Film {
 
   std::filesystem::path path_;
   std::filesystem::path part_;  // what ffmpeg writes to
-  pid_t child_ = -1;
+  int child_ = -1;  // process id
   int pipe_ = -1;
 };
 
