@@ -125,5 +125,20 @@ TEST(MarkerSetFile, SaysWhatIsWrongInOneSentence) {
   EXPECT_FALSE(ReadMarkerSet("no/such/file.json"));
 }
 
+TEST(MarkerSetFile, SurvivesTheFuzzCorpus) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(EGO_SOURCE_DIR) / "tests/fuzz/corpus/marker_set")) {
+    ++files;
+    const Result<MarkerSet> set = ReadMarkerSet(entry.path());
+    if (set) {
+      EXPECT_TRUE(Validate(*set)) << entry.path();
+    } else {
+      EXPECT_TRUE(set.error().starts_with(entry.path().filename().string())) << set.error();
+    }
+  }
+  EXPECT_GE(files, 3u);
+}
+
 }  // namespace
 }  // namespace ego
