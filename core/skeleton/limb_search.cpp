@@ -169,6 +169,7 @@ std::optional<Pair> MakePair(const BodyTree& tree, int attach, int a, int b) {
 }  // namespace
 
 bool BodyTree::IsAncestor(int ancestor, int joint) const {
+  if (joint < 0) return false;  // branches of different roots have no common joint
   for (int a = Parent(joint); a >= 0; a = Parent(a)) {
     if (a == ancestor) return true;
   }
