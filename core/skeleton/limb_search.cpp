@@ -91,8 +91,17 @@ std::vector<int> MainChain(const BodyTree& tree, int top) {
   return chain;
 }
 
-/// The base, mid and end joint in a chain: the two consecutive segments with the largest product
-/// of lengths. A chain that ends in a hand ends there.
+/// How much three consecutive joints look like base, mid and end of a limb: two long segments, the
+/// second running on from the first (a foot turns off the shin, a clavicle often off the arm).
+double LimbLikeness(const BodyTree& tree, const std::vector<int>& chain, std::size_t i) {
+  const Vec3 upper = tree.At(chain[i + 1]) - tree.At(chain[i]);
+  const Vec3 lower = tree.At(chain[i + 2]) - tree.At(chain[i + 1]);
+  const double product = glm::length(upper) * glm::length(lower);
+  return 0.25 * product + 0.75 * std::max(0.0, glm::dot(upper, lower));
+}
+
+/// The base, mid and end joint in a chain: the three consecutive joints most like them. A chain
+/// that ends in a joint with fingers ends there, or one before where that is a mere knuckle.
 FoundLimb SplitChain(const BodyTree& tree, const std::vector<int>& chain) {
   FoundLimb limb;
   const std::size_t count = chain.size();
@@ -102,15 +111,15 @@ FoundLimb SplitChain(const BodyTree& tree, const std::vector<int>& chain) {
     limb.mid = chain[1];
     return limb;
   }
-  const bool hand = tree.Children(chain.back()).size() >= 3;
-  std::size_t best = 0;
-  double best_product = -1.0;
-  for (std::size_t i = hand ? count - 3 : 0; i + 2 < count; ++i) {
-    const double product = glm::length(tree.At(chain[i + 1]) - tree.At(chain[i])) *
-                           glm::length(tree.At(chain[i + 2]) - tree.At(chain[i + 1]));
-    if (product > best_product * 1.0001) {
-      best = i;
-      best_product = product;
+  std::size_t best = count - 3;
+  if (tree.Children(chain.back()).size() >= 3) {
+    if (count > 3 &&
+        LimbLikeness(tree, chain, count - 3) < 0.3 * LimbLikeness(tree, chain, count - 4)) {
+      best = count - 4;
+    }
+  } else {
+    for (std::size_t i = count - 2; i-- > 0;) {
+      if (LimbLikeness(tree, chain, i) >= 0.999 * LimbLikeness(tree, chain, best)) best = i;
     }
   }
   limb.base = chain[best];
@@ -274,6 +283,13 @@ std::optional<FoundLimbs> LimbsByShape(const BodyTree& tree) {
         }
       }
     }
+  }
+  // Hostile trees could have any number of pairs; a body's are among the longest.
+  constexpr std::size_t kMaxPairs = 200;
+  if (pairs.size() > kMaxPairs) {
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.length > b.length; });
+    pairs.resize(kMaxPairs);
   }
   // The best two pairs on one trunk: long, side by side in the same direction, and the legs
   // running on where the trunk ends.
