@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kDemoAvatars = 6;
-
 // A sentence when the file is absent or of another kind than expected there.
 Result<void> CheckFile(const fs::path& path, FileKind expected) {
   const Result<FileKind> kind = KindOf(path);
@@ -65,7 +63,13 @@ Result<Cast> LoadCast(const CastArguments& arguments) {
     if (!avatar) return Error{avatar.error()};
     cast.avatars.push_back(*std::move(avatar));
   }
-  if (arguments.avatars.empty()) cast.avatars = LoadDemoCast(kDemoAvatars);
+  if (arguments.avatars.empty()) {
+    ProgressLine line("making the demo's cast");
+    for (std::size_t i = 0; i < DemoAvatarCount(); ++i) {
+      line.Show(static_cast<double>(i) / static_cast<double>(DemoAvatarCount()), "");
+      cast.avatars.push_back(LoadDemoAvatar(i));
+    }
+  }
   if (arguments.take.empty()) {
     cast.take = LoadDemoTake();
   } else {

@@ -30,7 +30,7 @@ class Film {
 
   std::filesystem::path path_;
   std::filesystem::path part_;  // what ffmpeg writes to
-  int child_ = -1;  // process id
+  int child_ = -1;              // process id
   int pipe_ = -1;
 };
 

@@ -47,18 +47,16 @@ Result<LoadedAvatar> LoadAvatar(const std::filesystem::path& path, const Progres
   return avatar;
 }
 
-std::vector<LoadedAvatar> LoadDemoCast(std::size_t count) {
-  std::vector<LoadedAvatar> cast;
-  const std::vector<PersonParameters> people = DemoCast();
-  for (std::size_t i = 1; i < people.size() && cast.size() < count; ++i) {
-    Person person = MakePerson(people[i]);
-    LoadedAvatar avatar;
-    avatar.name = people[i].name;
-    avatar.body = std::make_shared<const Body>(std::move(person.body));
-    avatar.character = std::make_shared<const Character>(std::move(person.character));
-    cast.push_back(std::move(avatar));
-  }
-  return cast;
+std::size_t DemoAvatarCount() { return DemoCast().size() - 1; }
+
+LoadedAvatar LoadDemoAvatar(std::size_t index) {
+  const PersonParameters parameters = DemoCast().at(index + 1);
+  Person person = MakePerson(parameters);
+  LoadedAvatar avatar;
+  avatar.name = parameters.name;
+  avatar.body = std::make_shared<const Body>(std::move(person.body));
+  avatar.character = std::make_shared<const Character>(std::move(person.character));
+  return avatar;
 }
 
 }  // namespace ego

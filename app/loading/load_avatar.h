@@ -29,7 +29,9 @@ struct LoadedAvatar {
 /// proposed one. Error: one sentence that names the file; "cancelled" when `progress` said so.
 Result<LoadedAvatar> LoadAvatar(const std::filesystem::path& path, const Progress& progress = {});
 
-/// The first `count` avatars of the demo's cast, without the performer. Generated, no files.
-std::vector<LoadedAvatar> LoadDemoCast(std::size_t count);
+/// How many avatars the demo's cast has, the performer not counted.
+std::size_t DemoAvatarCount();
+/// One of them, generated without a file.
+LoadedAvatar LoadDemoAvatar(std::size_t index);
 
 }  // namespace ego

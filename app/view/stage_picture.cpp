@@ -127,12 +127,16 @@ std::span<const Figure> StagePicture::Arrange(const StageFrame& frame, const Ove
   return figures_;
 }
 
-Box3 StagePicture::Bounds() {
-  Box3 box = renderer_.Bounds(figures_);
+Box3 StagePicture::BoundsOf(std::span<const Figure> figures) {
+  Box3 box = renderer_.Bounds(figures);
   if (box.IsEmpty()) return box;
   box.min -= anchor_;
   box.max -= anchor_;
   return box;
 }
+
+Box3 StagePicture::Bounds() { return BoundsOf(figures_); }
+
+Box3 StagePicture::Bounds(std::size_t figure) { return BoundsOf({&figures_.at(figure), 1}); }
 
 }  // namespace ego

@@ -57,11 +57,15 @@ class StagePicture {
                                   const std::optional<FigureRole>& selected = {});
   /// Roles of the figures last arranged, in their order.
   std::span<const FigureRole> roles() const { return roles_; }
+  /// What was added to each figure's positions, in the same order.
+  std::span<const Vec3> offsets() const { return offsets_; }
   /// Where the line of the last arranged frame has its middle, world space. A camera that follows
   /// adds this to its target.
   Vec3 anchor() const { return anchor_; }
   /// Box around the figures last arranged, relative to `anchor()`.
   Box3 Bounds();
+  /// The same for one of them.
+  Box3 Bounds(std::size_t figure);
 
   StageRenderer& renderer() { return renderer_; }
 
@@ -72,6 +76,7 @@ class StagePicture {
     std::vector<Mat4> node_global;
   };
 
+  Box3 BoundsOf(std::span<const Figure> figures);
   void AddPerformer(const StageFrame& frame, const Overlays& overlays);
   void AddAvatar(const StageFrame& frame, std::size_t index, const Overlays& overlays);
   const StageLayout& LayoutOf(const std::shared_ptr<const CapturedMotion>& motion);

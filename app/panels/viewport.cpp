@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/panels/panels.h"
+#include "app/panels/widgets.h"
+#include "app/studio.h"
+#include "render/look.h"
+
+namespace ego {
+namespace {
+
+constexpr float kClickSlack = 4.0f;  // a drag shorter than this is a click
+
+// The figure under the pointer: the nearest whose upright axis passes close to it.
+std::optional<FigureRole> FigureAt(Studio& studio, const Vec2& pixel, ViewportSize size) {
+  StagePicture& picture = studio.picture();
+  Camera camera = studio.camera();
+  camera.target_ws += picture.anchor();
+  const StageFrame& frame = studio.frame();
+  std::optional<FigureRole> found;
+  double nearest = 1e300;
+  const auto test = [&](const FigureRole& role, const Vec3& offset, const ModelPose& pose,
+                        double height) {
+    Vec2 low(1e300);
+    Vec2 high(-1e300);
+    double depth = 0.0;
+    for (const Vec3& joint : pose.position_ws) {
+      const auto projected = camera.Project(joint + offset, size);
+      if (!projected) return;
+      low = glm::min(low, Vec2(*projected));
+      high = glm::max(high, Vec2(*projected));
+      depth = projected->z;
+    }
+    const double margin = 0.08 * height / std::max(1e-6, camera.MetresPerPixel(size));
+    const bool inside = pixel.x > low.x - margin && pixel.x < high.x + margin &&
+                        pixel.y > low.y - margin && pixel.y < high.y + margin;
+    if (inside && depth < nearest) {
+      nearest = depth;
+      found = role;
+    }
+  };
+  for (std::size_t i = 0; i < picture.roles().size(); ++i) {
+    const FigureRole& role = picture.roles()[i];
+    const Vec3 offset = picture.offsets()[i];
+    if (role.kind != FigureRole::Kind::kAvatar) {
+      test(role, offset, frame.performer, frame.scene->motion->performer.height);
+      continue;
+    }
+    for (std::size_t k = 0; k < frame.avatars.size(); ++k) {
+      const StageScene::Avatar& avatar = frame.scene->avatars[k];
+      if (avatar.id == role.avatar_id) {
+        test(role, offset, frame.avatars[k].model, avatar.body->height);
+      }
+    }
+  }
+  return found;
+}
+
+void MoveCamera(Studio& studio, const Rect& rect, ViewportSize size) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Vec2 pointer(io.MousePos.x - rect.x, io.MousePos.y - rect.y);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
+    studio.camera().Zoom(static_cast<double>(io.MouseWheel), pointer, size);
+    studio.CameraMovedByHand();
+  }
+  if (ImGui::IsItemActive() && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
+    const Vec2 drag(io.MouseDelta.x, io.MouseDelta.y);
+    const bool right = io.MouseDown[ImGuiMouseButton_Right];
+    if (right || io.KeyShift) {
+      studio.camera().Pan(drag, size);
+    } else {
+      studio.camera().Orbit(drag, size);
+    }
+    studio.CameraMovedByHand();
+  }
+  const bool clicked =
+      ImGui::IsItemDeactivated() && io.MouseReleased[ImGuiMouseButton_Left] &&
+      io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < Px(kClickSlack) * Px(kClickSlack);
+  if (clicked && studio.frame().scene) studio.selection() = FigureAt(studio, pointer, size);
+}
+
+void ShowOverlayStrip(Studio& studio, const Rect& view) {
+  Overlays& on = studio.overlays();
+  struct Item {
+    const char* label;
+    const char* tip;
+    bool* value;
+  };
+  const Item items[] = {
+      {"Surface", "Body surface of the performer (B)", &on.surface},
+      {"Markers", "Markers of the take (M)", &on.markers},
+      {"Skeleton", "Captured skeleton (K)", &on.skeleton},
+      {"Crude", "The surfaces that the method works with, over the avatars (C)", &on.crude},
+      {"Names", "Names at their feet (N)", &on.names},
+  };
+  ImGui::PushFont(Gui::Current().fonts().small);
+  float width = 0.0f;
+  for (const Item& item : items) {
+    width += ImGui::CalcTextSize(item.label).x + 2.0f * ImGui::GetStyle().FramePadding.x + Px(4.0f);
+  }
+  ImGui::PopFont();
+  ImGui::SetCursorScreenPos({view.x + view.width - width - Px(8.0f), view.y + Px(8.0f)});
+  for (const Item& item : items) {
+    if (Toggle(item.label, item.tip, *item.value)) *item.value = !*item.value;
+    ImGui::SameLine(0.0f, Px(4.0f));
+  }
+}
+
+// An error stands where the eye is until it is read.
+void ShowError(Studio& studio, const Rect& view) {
+  if (!studio.message() || studio.message()->kind != Message::Kind::kError) return;
+  const std::string& text = studio.message()->text;
+  const float width = std::min(Px(560.0f), view.width - Px(32.0f));
+  const float wrap = width - Px(64.0f);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  const float height = size.y + Px(24.0f);
+  const ImVec2 corner{view.x + 0.5f * (view.width - width),
+                      view.y + view.height - height - Px(16.0f)};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end{corner.x + width, corner.y + height};
+  list.AddRectFilled(corner, end, Packed(look::kRaised), Px(6.0f));
+  list.AddRectFilled(corner, {corner.x + Px(4.0f), end.y}, Packed(look::kBad), Px(2.0f));
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + Px(16.0f), corner.y + Px(12.0f)},
+               Packed(look::kText), text.c_str(), nullptr, wrap);
+  ImGui::SetCursorScreenPos({end.x - Px(36.0f), corner.y + Px(8.0f)});
+  if (SignButton("dismiss", Sign::kCross, "Dismiss")) studio.DismissMessage();
+}
+
+void ShowEmptyState(Studio& studio, const Rect& view) {
+  const char* text =
+      studio.loader().activity() ? "Preparing the stage" : "Drop takes and avatars here";
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  ImGui::SetCursorScreenPos({view.x + 0.5f * (view.width - size.x), view.y + 0.45f * view.height});
+  ImGui::TextColored({look::kQuiet.x, look::kQuiet.y, look::kQuiet.z, 1.0f}, "%s", text);
+  if (studio.loader().activity()) return;
+  ImGui::SetCursorScreenPos(
+      {view.x + 0.5f * (view.width - Px(140.0f)), view.y + 0.45f * view.height + Px(28.0f)});
+  if (ImGui::Button("Open the demo", {Px(140.0f), 0.0f})) {
+    studio.OpenDemoTake();
+    if (studio.avatars().empty()) studio.OpenDemoCast();
+  }
+}
+
+}  // namespace
+
+void ShowViewport(Studio& studio) {
+  const Rect view = studio.layout().viewport;
+  ImGui::SetNextWindowPos({view.x, view.y});
+  ImGui::SetNextWindowSize({view.width, view.height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+  ImGui::Begin("viewport", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  const ViewportSize size{static_cast<int>(view.width), static_cast<int>(view.height)};
+  ImGui::InvisibleButton("stage", {view.width, view.height},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::SetItemAllowOverlap();
+  MoveCamera(studio, view, size);
+  ShowOverlayStrip(studio, view);
+  if (!studio.current_take() || !studio.frame().scene) ShowEmptyState(studio, view);
+  ShowError(studio, view);
+  ImGui::End();
+}
+
+}  // namespace ego

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+#include "app/studio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <utility>
+
+#include "app/commands/command.h"
+#include "app/commands/terminal.h"
+#include "app/loading/file_kind.h"
+#include "app/panels/panels.h"
+#include "app/view/fonts.h"
+#include "core/baselines/retarget_method.h"
+
+namespace ego {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kDemoAvatars = 5;
+constexpr auto kMessageStays = 8s;
+
+template <class Entry>
+auto Find(std::vector<Entry>& entries, std::uint64_t id) {
+  return std::find_if(entries.begin(), entries.end(), [id](const Entry& e) { return e.id == id; });
+}
+
+}  // namespace
+
+Studio::Studio(std::unique_ptr<Window> window, StageRenderer renderer)
+    : window_(std::move(window)),
+      gui_(*window_),
+      picture_(std::move(renderer)),
+      method_(RetargetMethodNames().front()) {
+  layout_.Divide(static_cast<float>(window_->width()), static_cast<float>(window_->height()),
+                 gui_.scale());
+}
+
+// Members end in the reverse of their order: loading and the stage are stopped and joined, then
+// meshes, interface and window go while the window's context is still current.
+Studio::~Studio() = default;
+
+void Studio::OpenFiles(const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files) loader_.AddFile(file);
+}
+
+void Studio::OpenDemoTake() {
+  loader_.Add("Preparing the demo's motion",
+              [](const Progress&) -> Result<BackgroundLoader::Loaded> {
+                return BackgroundLoader::Loaded(LoadDemoTake());
+              });
+}
+
+void Studio::OpenDemoCast() {
+  for (std::size_t i = 0; i < std::min(kDemoAvatars, DemoAvatarCount()); ++i) {
+    loader_.Add("Preparing the demo's cast",
+                [i](const Progress&) -> Result<BackgroundLoader::Loaded> {
+                  return BackgroundLoader::Loaded(LoadDemoAvatar(i));
+                });
+  }
+}
+
+const TakeEntry* Studio::current_take() const {
+  for (const TakeEntry& entry : takes_) {
+    if (entry.id == current_take_) return &entry;
+  }
+  return nullptr;
+}
+
+const AvatarEntry* Studio::selected_avatar() const {
+  if (!selection_ || selection_->kind != FigureRole::Kind::kAvatar) return nullptr;
+  for (const AvatarEntry& entry : avatars_) {
+    if (entry.id == selection_->avatar_id) return &entry;
+  }
+  return nullptr;
+}
+
+void Studio::SelectTake(std::uint64_t id) {
+  if (id == current_take_) return;
+  current_take_ = id;
+  RebuildScene();
+}
+
+void Studio::RemoveTake(std::uint64_t id) {
+  const auto found = Find(takes_, id);
+  if (found == takes_.end()) return;
+  Say(Message::Kind::kInfo, "Removed " + found->take.name + ". Ctrl+Z brings it back.");
+  removed_.emplace_back(std::move(*found));
+  takes_.erase(found);
+  if (id == current_take_) SelectTake(takes_.empty() ? 0 : takes_.back().id);
+}
+
+void Studio::SetVisible(std::uint64_t avatar_id, bool visible) {
+  const auto found = Find(avatars_, avatar_id);
+  if (found == avatars_.end()) return;
+  found->visible = visible;
+  PassMembers();
+}
+
+void Studio::RemoveAvatar(std::uint64_t id) {
+  const auto found = Find(avatars_, id);
+  if (found == avatars_.end()) return;
+  Say(Message::Kind::kInfo, "Removed " + found->avatar.name + ". Ctrl+Z brings it back.");
+  removed_.emplace_back(std::move(*found));
+  avatars_.erase(found);
+  PassMembers();
+  RebuildScene();
+}
+
+void Studio::UndoRemove() {
+  if (removed_.empty()) return;
+  std::variant<TakeEntry, AvatarEntry> last = std::move(removed_.back());
+  removed_.pop_back();
+  // Ids grow: sorting by them puts an entry back in its place.
+  const auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
+  if (auto* take = std::get_if<TakeEntry>(&last)) {
+    const std::uint64_t id = take->id;
+    takes_.push_back(std::move(*take));
+    std::sort(takes_.begin(), takes_.end(), by_id);
+    if (!current_take()) SelectTake(id);
+  } else {
+    avatars_.push_back(std::move(std::get<AvatarEntry>(last)));
+    std::sort(avatars_.begin(), avatars_.end(), by_id);
+    PassMembers();
+    RebuildScene();
+  }
+}
+
+void Studio::TogglePlaying() { stage_.Play(!frame().playing); }
+
+void Studio::SetSpeed(double speed) {
+  speed_ = std::clamp(speed, Playhead::kSlowest, Playhead::kFastest);
+  stage_.SetSpeed(speed_);
+}
+
+void Studio::SetLoop(bool loop) {
+  loop_ = loop;
+  stage_.SetLoop(loop);
+}
+
+void Studio::SetMethod(const std::string& name) {
+  method_ = name;
+  stage_.SetMethod(name);
+}
+
+void Studio::Say(Message::Kind kind, std::string text) {
+  message_ = Message{kind, std::move(text), std::chrono::steady_clock::now()};
+}
+
+void Studio::RebuildScene() {
+  const TakeEntry* take = current_take();
+  if (!take) return;
+  auto scene = std::make_shared<StageScene>();
+  scene->motion = take->take.motion;
+  for (const AvatarEntry& entry : avatars_) {
+    scene->avatars.push_back({entry.id, entry.avatar.body});
+  }
+  stage_.SetScene(std::move(scene));
+}
+
+void Studio::PassMembers() {
+  std::vector<StageMember> members;
+  for (const AvatarEntry& entry : avatars_) {
+    members.push_back(
+        {entry.id, entry.avatar.name, entry.color, entry.visible, entry.avatar.character});
+  }
+  picture_.SetMembers(std::move(members));
+}
+
+void Studio::TakeInLoaded() {
+  while (std::optional<Result<BackgroundLoader::Loaded>> result = loader_.Take()) {
+    if (!*result) {
+      Say(Message::Kind::kError, result->error());
+      continue;
+    }
+    const std::uint64_t id = next_id_++;
+    if (auto* take = std::get_if<LoadedTake>(&**result)) {
+      Say(Message::Kind::kInfo, "Opened " + take->name + ".");
+      takes_.push_back({id, std::move(*take)});
+      SelectTake(id);
+      if (takes_.size() == 1) stage_.Play(true);
+    } else {
+      LoadedAvatar& avatar = std::get<LoadedAvatar>(**result);
+      Say(Message::Kind::kInfo, "Opened " + avatar.name + ".");
+      avatars_.push_back({id, std::move(avatar), look::AvatarColor(next_color_++), true});
+      PassMembers();
+      RebuildScene();
+    }
+  }
+}
+
+void Studio::MeasureRate() {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_frame_).count();
+  last_frame_ = now;
+  if (seconds <= 0.0 || seconds > 1.0) return;
+  draw_hz_ += (draw_hz_ == 0.0 ? 1.0 : 0.06) * (1.0 / seconds - draw_hz_);
+}
+
+// While nothing moves there is nothing to draw: waiting for input then leaves the machine alone.
+double Studio::Patience() const {
+  const auto quiet_for = std::chrono::steady_clock::now() - last_change_;
+  return quiet_for > 400ms ? 0.1 : 0.0;
+}
+
+void Studio::RunFrame() {
+  window_->Poll(Patience());
+  const auto now = std::chrono::steady_clock::now();
+  TakeInLoaded();
+  if (!window_->dropped().empty()) OpenFiles(window_->dropped());
+  HandleKeys();
+  const bool moved = stage_.Fetch();
+  if (moved || window_->had_input() || loader_.activity()) last_change_ = now;
+  if (message_ && message_->kind == Message::Kind::kInfo && now - message_->when > kMessageStays) {
+    message_.reset();
+  }
+  if (window_->width() == 0 || window_->height() == 0) {
+    std::this_thread::sleep_for(50ms);
+    return;
+  }
+  layout_.Divide(static_cast<float>(window_->width()), static_cast<float>(window_->height()),
+                 gui_.scale());
+  gui_.Begin();
+  ShowViewport(*this);
+  ShowTopBar(*this);
+  ShowLeftRail(*this);
+  ShowInspector(*this);
+  ShowTimeline(*this);
+  ShowStatusBar(*this);
+  ShowSplitters(*this);
+  ShowKeys(*this);
+  DrawStage();
+  gui_.End();
+  window_->Present();
+  MeasureRate();
+  // Without a vertical sync to wait for, drawing faster than the display shows helps nobody.
+  std::this_thread::sleep_until(now +
+                                std::chrono::duration_cast<std::chrono::microseconds>(
+                                    std::chrono::duration<double>(0.95 / window_->refresh_hz())));
+}
+
+int RunStudio(const std::vector<std::filesystem::path>& files) {
+  Result<std::unique_ptr<Window>> window = Window::Open("Egostudio", 1600, 900);
+  if (!window) return Fail(window.error());
+  const std::vector<std::uint8_t> font = ReadFace(Face::kTextStrong);
+  Result<StageRenderer> renderer = StageRenderer::Create({.font = font, .samples = 0});
+  if (!renderer) return Fail(renderer.error());
+  Studio studio(*std::move(window), *std::move(renderer));
+
+  const auto any = [&](FileKind kind) {
+    return std::any_of(files.begin(), files.end(), [kind](const std::filesystem::path& file) {
+      const Result<FileKind> its = KindOf(file);
+      return its && *its == kind;
+    });
+  };
+  studio.OpenFiles(files);
+  if (!any(FileKind::kTake)) studio.OpenDemoTake();
+  if (!any(FileKind::kAvatar)) studio.OpenDemoCast();
+  while (!studio.ShouldClose()) studio.RunFrame();
+  return kDone;
+}
+
+}  // namespace ego

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/loading/background_loader.h"
+#include "app/panels/frame_layout.h"
+#include "app/stage/stage_thread.h"
+#include "app/view/stage_picture.h"
+#include "app/window/gui.h"
+#include "app/window/window.h"
+
+namespace ego {
+
+/// Opens the studio window on these files, or on the demo where they name no take or no avatar,
+/// and runs it until it is closed. Returns an exit code.
+int RunStudio(const std::vector<std::filesystem::path>& files);
+
+/// A take in the studio's list.
+struct TakeEntry {
+  std::uint64_t id = 0;
+  LoadedTake take;
+};
+
+/// An avatar in the studio's list.
+struct AvatarEntry {
+  std::uint64_t id = 0;
+  LoadedAvatar avatar;
+  glm::vec3 color{1.0f};  // sRGB; keeps it in every view
+  bool visible = true;
+};
+
+/// A sentence for the user.
+struct Message {
+  enum class Kind { kInfo, kError };
+  Kind kind = Kind::kInfo;
+  std::string text;
+  std::chrono::steady_clock::time_point when;
+};
+
+/// The studio: what is open, what is selected, how it is seen; and what the panels may do to it.
+/// One object on the main thread; loading and the stage run on threads of their own.
+class Studio {
+ public:
+  Studio(std::unique_ptr<Window> window, StageRenderer renderer);
+  /// Ends the threads first, then what draws, then the window.
+  ~Studio();
+
+  void OpenFiles(const std::vector<std::filesystem::path>& files);
+  void OpenDemoTake();
+  void OpenDemoCast();
+
+  /// One turn of the main loop: input, what was loaded, panels, picture.
+  void RunFrame();
+  bool ShouldClose() const { return window_->ShouldClose(); }
+
+  // What is open.
+  const std::vector<TakeEntry>& takes() const { return takes_; }
+  const std::vector<AvatarEntry>& avatars() const { return avatars_; }
+  const TakeEntry* current_take() const;
+  const AvatarEntry* selected_avatar() const;
+  void SelectTake(std::uint64_t id);
+  void RemoveTake(std::uint64_t id);
+  void SetVisible(std::uint64_t avatar_id, bool visible);
+  void RemoveAvatar(std::uint64_t id);
+  /// Brings back what was removed last.
+  void UndoRemove();
+  bool can_undo() const { return !removed_.empty(); }
+
+  // What plays.
+  StageThread& stage() { return stage_; }
+  const StageFrame& frame() const { return stage_.frame(); }
+  void TogglePlaying();
+  void SetSpeed(double speed);
+  double speed() const { return speed_; }
+  void SetLoop(bool loop);
+  bool loop() const { return loop_; }
+  void SetMethod(const std::string& name);
+  const std::string& method() const { return method_; }
+
+  // How it is seen.
+  Overlays& overlays() { return overlays_; }
+  Camera& camera() { return camera_; }
+  std::optional<FigureRole>& selection() { return selection_; }
+  StagePicture& picture() { return picture_; }
+  FrameLayout& layout() { return layout_; }
+  /// Keeps the studio from framing the stage by itself when avatars come and go.
+  void CameraMovedByHand() { frame_when_ready_ = false; }
+  void FrameAll();
+  void FrameSelected();
+  void LookFrom(StandardView view);
+
+  // What is going on.
+  BackgroundLoader& loader() { return loader_; }
+  const std::optional<Message>& message() const { return message_; }
+  void Say(Message::Kind kind, std::string text);
+  void DismissMessage() { message_.reset(); }
+  double draw_hz() const { return draw_hz_; }
+  Window& window() { return *window_; }
+
+  bool show_keys = false;  // the list of keys is up
+
+ private:
+  void TakeInLoaded();
+  void HandleKeys();
+  void DrawStage();
+  void FrameWhenChanged();
+  void RebuildScene();
+  void PassMembers();
+  void MeasureRate();
+  double Patience() const;
+
+  // The order of members is the order of life: threads are last and end first.
+  std::unique_ptr<Window> window_;
+  Gui gui_;
+  StagePicture picture_;
+
+  std::vector<TakeEntry> takes_;
+  std::vector<AvatarEntry> avatars_;
+  std::uint64_t current_take_ = 0;  // 0: none
+  std::uint64_t next_id_ = 1;
+  std::size_t next_color_ = 0;
+  std::vector<std::variant<TakeEntry, AvatarEntry>> removed_;
+
+  Overlays overlays_;
+  Camera camera_;
+  std::optional<FigureRole> selection_;
+  FrameLayout layout_;
+  bool frame_when_ready_ = true;          // the camera has not been moved by hand yet
+  std::vector<FigureRole> framed_roles_;  // who was on stage when it was framed last
+  Rect framed_view_;
+  double speed_ = 1.0;
+  bool loop_ = true;
+  std::string method_;
+  std::optional<Message> message_;
+
+  std::chrono::steady_clock::time_point last_frame_{};
+  std::chrono::steady_clock::time_point last_change_{};
+  double draw_hz_ = 0.0;
+
+  StageThread stage_;
+  BackgroundLoader loader_;
+};
+
+}  // namespace ego
