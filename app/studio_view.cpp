@@ -44,7 +44,7 @@ void Studio::FrameWhenChanged() {
 void Studio::FrameAll() {
   Box3 box = picture_.Bounds();
   if (box.IsEmpty()) return;
-  box.min.y = std::min(box.min.y, -0.05);  // room for the names at their feet
+  MakeRoomForNames(box);
   const Rect& view = layout_.viewport;
   camera_.Frame(box, {static_cast<int>(view.width), static_cast<int>(view.height)}, 0.06);
 }

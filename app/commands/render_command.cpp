@@ -97,7 +97,7 @@ class Studio {
       Arrange(frame, view);
       box.Add(picture_.Bounds());
     }
-    box.min.y = std::min(box.min.y, -0.05);  // room for the names at their feet
+    MakeRoomForNames(box);
     Camera camera;
     camera.Look(view);
     camera.Frame(box, size, 0.04);

@@ -139,4 +139,8 @@ Box3 StagePicture::Bounds() { return BoundsOf(figures_); }
 
 Box3 StagePicture::Bounds(std::size_t figure) { return BoundsOf({&figures_.at(figure), 1}); }
 
+void MakeRoomForNames(Box3& box) {
+  if (!box.IsEmpty()) box.min.y -= 0.1 * (box.max.y - box.min.y);
+}
+
 }  // namespace ego

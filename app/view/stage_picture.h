@@ -92,4 +92,7 @@ class StagePicture {
   std::vector<Vec3> offsets_;
 };
 
+/// Lowers a box for Camera::Frame so that the names at the figures' feet stay in the picture.
+void MakeRoomForNames(Box3& box);
+
 }  // namespace ego
