@@ -43,7 +43,7 @@ struct Camera {
   static constexpr double kLens35 = 0.66027;
 
   Vec3 target_ws{0.0, 0.95, 0.0};
-  double yaw = 0.42;       // 0: before the stage, looking along -Z; positive: from the left (+X)
+  double yaw = 0.34;       // 0: before the stage, looking along -Z; positive: from the left (+X)
   double pitch = 0.10;     // positive: from above, within +-pi/2
   double distance = 5.0;   // from the target, metres
   double fov_y = kLens35;  // of the picture's height

@@ -11,32 +11,15 @@
 #include "render/gl/program.h"
 #include "render/gl/stage_buffers.h"
 #include "render/gl/surface.h"
+#include "render/key_light.h"
 
 namespace ego {
 namespace {
 
-// From the front, the bodies' left and above.
-const Vec3 kKeyDirection = glm::normalize(Vec3{0.46, 0.88, 0.62});
 constexpr double kGroundReach = 45.0;   // metres; the floor has faded before
 constexpr double kLargestStage = 40.0;  // metres; what lies beyond has no shadow
 constexpr float kVignette = 0.30f;      // darkening in the corners
 constexpr int kShadowUnit = 1;
-
-/// Light space of a box: the smallest orthographic view along the key light that holds it.
-Mat4 LightMatrix(const Box3& box) {
-  const Mat4 view = glm::lookAt(kKeyDirection, Vec3{0.0}, kUp);
-  Box3 fit;
-  for (unsigned i = 0; i < 8; ++i) {
-    const Vec3 corner{(i & 1u) != 0u ? box.max.x : box.min.x,
-                      (i & 2u) != 0u ? box.max.y : box.min.y,
-                      (i & 4u) != 0u ? box.max.z : box.min.z};
-    fit.Add(Vec3(view * Vec4(corner, 1.0)));
-  }
-  constexpr double kEdge = 0.05;  // metres around, so that nothing touches the map's border
-  return glm::ortho(fit.min.x - kEdge, fit.max.x + kEdge, fit.min.y - kEdge, fit.max.y + kEdge,
-                    -fit.max.z - kEdge, -fit.min.z + kEdge) *
-         view;
-}
 
 }  // namespace
 
@@ -97,7 +80,7 @@ void StageRenderer::Impl::SetLight(const gl::Program& program) const {
   program.Set("shadow_strength", shadows ? 1.0f : 0.0f);
   program.Set("shadow_texel", glm::vec2(1.0f / static_cast<float>(shadow_map_size),
                                         2.0f / static_cast<float>(shadow_map_size)));
-  program.Set("key_direction", glm::vec3(kKeyDirection));
+  program.Set("key_direction", glm::vec3(KeyDirection()));
   program.Set("camera_position", eye);
 }
 
@@ -198,13 +181,7 @@ void StageRenderer::Impl::DrawFloorAndRoom(const StageView& view, const DrawTarg
     if (box.IsEmpty()) box.Add(Vec3{0.0});
     const Vec3 extent = glm::min(box.max - box.min, Vec3{kLargestStage});
     const Vec3 reach{kGroundReach};
-    // Where the key light throws the shadows of the box.
-    Box3 shaded;
-    for (const double y : {box.min.y, box.max.y}) {
-      const Vec3 thrown = std::max(0.0, y) / kKeyDirection.y * kKeyDirection;
-      shaded.Add(box.min - thrown);
-      shaded.Add(box.max - thrown);
-    }
+    const Box3 shaded = ShadowOnGround(box);
     const Vec3 low = view.camera.target_ws - reach, high = view.camera.target_ws + reach;
     const Vec3 inner_low = glm::clamp(shaded.min - 0.05, low, high);
     const Vec3 inner_high = glm::clamp(shaded.max + 0.05, low, high);
