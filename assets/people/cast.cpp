@@ -123,7 +123,7 @@ PersonParameters Woman() {
   m.shirt_color = Srgb(0xFF7D6E);
   m.trouser_color = Srgb(0x37323F);
   m.shoe_color = Srgb(0xD9CFC4);
-  m.hair_color = Srgb(0x2A1D18);
+  m.hair_color = Srgb(0x3A2620);
   return m;
 }
 
@@ -196,7 +196,7 @@ PersonParameters Thin() {
   m.shirt_color = Srgb(0xD77FD0);
   m.trouser_color = Srgb(0x2F3A4A);
   m.shoe_color = Srgb(0xEDE6DB);
-  m.hair_color = Srgb(0x1B1614);
+  m.hair_color = Srgb(0x2C2422);
   return m;
 }
 

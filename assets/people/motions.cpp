@@ -85,12 +85,20 @@ Script HandsOnBelly(const Stage& stage) {
   Posture p = Stand();
   p.spine.pitch = 4.0;
   p.head.pitch = 8.0;
-  p.hand[0] = Touch(stage.Trunk(0.27, {0.03, 0.0, 1.0}), {-1.0, -0.25, 0.0}, {1.0, -0.35, -0.35});
-  p.hand[1] = Touch(stage.BackOfHand(0), {0.15, 0.0, 1.0}, {1.0, -0.35, -0.35});
+  p.hand[0] = Touch(stage.Trunk(0.25, {0.30, 0.0, 1.0}), {-1.0, -0.30, 0.0}, {1.0, -0.2, 0.35});
+  p.hand[1] = Touch(stage.BackOfHand(0), {0.15, 0.0, 1.0}, {1.0, -0.2, 0.55});
   // The fingers of the right hand lie along those of the left, across its back.
   p.hand[1].fingers = {-0.9, 0.0, -0.45};
   p.hand[1].after_other = true;
-  return Visit(p, 1.1, 1.4, 1.1);
+  // From the front, so that no forearm cuts the corner of the hip.
+  Posture front = Stand();
+  front.spine.pitch = 3.0;
+  front.head.pitch = 6.0;
+  front.hand[0] =
+      Free({-0.10, -0.40, 0.26}, {-0.2, 0.0, -1.0}, {-1.0, -0.3, 0.1}, {1.0, -0.3, 0.0});
+  front.hand[1] =
+      Free({-0.12, -0.37, 0.33}, {-0.2, 0.0, -1.0}, {-1.0, -0.2, 0.0}, {1.0, -0.3, 0.1});
+  return {{0.0, Stand()}, {0.85, front}, {1.45, p}, {2.85, p}, {3.45, front}, {4.3, Stand()}};
 }
 
 Script ArmsCrossed(const Stage& stage) {
@@ -100,11 +108,17 @@ Script ArmsCrossed(const Stage& stage) {
   p.head.yaw = 8.0;
   const Vec3 shoulder = stage.Joint(J::kLeftUpperArm);
   // The left hand lies on the right ribs, the right one on the left upper arm.
-  p.hand[0] = Touch(stage.Trunk(0.56, {-0.8, 0.0, 1.0}), {-0.75, 0.65, -0.3}, {0.8, -0.7, 0.3});
+  p.hand[0] = Touch(stage.Trunk(0.56, {-0.8, 0.0, 1.0}), {-0.75, 0.65, -0.3}, {0.8, -0.6, 0.6});
   p.hand[1] = Touch(stage.At(shoulder + Vec3{0.16, 0.0, 0.0}, {0.0, 0.75, -0.8}),
                     {-0.25, -0.7, -0.7}, {0.8, -0.75, 0.75});
   p.hand[1].after_other = true;
-  return Visit(p, 1.45, 1.5, 1.45);
+  // On the way the forearms are held in front of the chest, one above the other.
+  Posture front = Stand();
+  front.hand[0] =
+      Free({-0.16, -0.30, 0.32}, {-0.25, -0.2, -1.0}, {-1.0, 0.1, 0.1}, {0.9, -0.6, 0.2});
+  front.hand[1] =
+      Free({-0.16, -0.17, 0.36}, {-0.25, -0.2, -1.0}, {-1.0, 0.1, 0.1}, {0.9, -0.6, 0.3});
+  return {{0.0, Stand()}, {0.9, front}, {1.5, p}, {3.0, p}, {3.6, front}, {4.5, Stand()}};
 }
 
 Script HandOnShoulder(const Stage& stage) {
@@ -114,7 +128,7 @@ Script HandOnShoulder(const Stage& stage) {
   p.head.pitch = 4.0;
   const Vec3 shoulder = stage.Joint(J::kLeftUpperArm);
   p.hand[1] = Touch(stage.At(shoulder + Vec3{-0.03, 0.0, 0.0}, {0.1, 1.0, 0.5}), {-0.25, 0.3, -1.0},
-                    {0.35, -1.0, 0.45});
+                    {0.45, -0.8, 1.0});
   p.shrug[1] = 4.0;
   p.hand[1].after_other = true;
   return Visit(p, 1.0, 1.2, 1.0);

@@ -66,7 +66,7 @@ struct PersonParameters {
   glm::vec3 shirt_color{0.914f, 0.635f, 0.231f};
   glm::vec3 trouser_color{0.20f, 0.25f, 0.33f};
   glm::vec3 shoe_color{0.86f, 0.86f, 0.84f};
-  glm::vec3 hair_color{0.19f, 0.13f, 0.10f};
+  glm::vec3 hair_color{0.29f, 0.19f, 0.13f};
 };
 
 /// A generated character together with its calibration, known exactly.

@@ -299,6 +299,10 @@ double PersonShape::Hair(const Vec3& p) const {
     line = 0.04 * h + (front - 0.04) * h * SmoothStep(0.15, 0.62, q.z / l - 0.25 * q.x / w + 0.1);
   }
   d = SmoothIntersection(d, 0.9 * (line - q.y), 0.03 * h);
+  if (m.hair == Hair::kShort) {
+    const Vec3 tuft{0.0, top - 0.125 * h, 0.50 * l};
+    d = SmoothUnion(d, Ellipsoid(q, tuft, {0.74 * w, 0.115 * h, 0.56 * l}), 0.05 * h);
+  }
   if (m.hair == Hair::kBun) {
     d = SmoothUnion(d, Ellipsoid(q, {0.0, 0.70 * h, -1.12 * l}, Vec3(0.17 * h)), 0.03 * h);
   }

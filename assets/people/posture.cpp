@@ -102,6 +102,7 @@ PostureSolver::ArmGoal PostureSolver::GoalOf(const HandGoal& goal, std::size_t s
   const HandSurface& surface = body_.surface.hand[side];
   const Vec3& placed = goal.fingertip ? surface.fingertip_ms : surface.palm_ms;
   ArmGoal arm;
+  if (goal.touches) arm.away = Posed(goal.skin, pose).normal_ms;
   arm.wrist = target - rotation * (placed - canonical_[Index(hand)]);
   arm.elbow = glm::normalize(chest * Sided(goal.elbow, side));
   // The hand seen from its own forearm, as a turn about it and a bend of the wrist: what moves
@@ -191,9 +192,12 @@ Pose PostureSolver::Solve(const Posture& from, const Posture& to, double share) 
     const ArmGoal b = GoalOf(to.hand[side], side, model);
     ArmGoal goal;
     goal.wrist = glm::mix(a.wrist, b.wrist, share);
-    const Vec3 out = goal.wrist - model.Position(J::kChest);
-    const double arc = 4.0 * share * (1.0 - share) * 0.22 * glm::distance(a.wrist, b.wrist);
-    goal.wrist += arc * Across(out, model.Rotation(J::kChest) * kUp, Vec3{0.0, 0.0, 1.0});
+    // Around the body, and off the skin before moving along it.
+    const double middle = 4.0 * share * (1.0 - share);
+    const double distance = glm::distance(a.wrist, b.wrist);
+    const Vec3 out = Across(goal.wrist - model.Position(J::kChest), model.Rotation(J::kChest) * kUp,
+                            Vec3{0.0, 0.0, 1.0});
+    goal.wrist += middle * distance * (0.2 * out + 0.3 * glm::mix(a.away, b.away, share));
     goal.elbow = glm::mix(a.elbow, b.elbow, share);
     goal.twist = Mix(a.twist, b.twist, share);
     goal.swing = glm::slerp(a.swing, b.swing, share);

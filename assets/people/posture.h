@@ -73,6 +73,7 @@ class PostureSolver {
     Vec3 elbow;          // world, where it points
     double twist = 0.0;  // of the hand about the forearm, radians
     Quat swing = kIdentity;
+    Vec3 away{0.0};  // world, unit: off the skin that is touched
   };
   ArmGoal GoalOf(const HandGoal& goal, std::size_t side, const ModelPose& pose) const;
   struct ArmFrames {

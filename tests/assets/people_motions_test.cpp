@@ -103,8 +103,8 @@ struct Contact {
   bool fingertip;
 };
 /// When hands are known to touch.
-constexpr std::array<Contact, 7> kContacts = {{{"hands-on-belly", 1.15, 2.45, true, true, false},
-                                               {"arms-crossed", 1.5, 2.9, true, true, false},
+constexpr std::array<Contact, 7> kContacts = {{{"hands-on-belly", 1.5, 2.8, true, true, false},
+                                               {"arms-crossed", 1.55, 2.95, true, true, false},
                                                {"hand-on-shoulder", 1.05, 2.15, false, true, false},
                                                {"hands-on-hips", 1.05, 2.35, true, true, false},
                                                {"salute", 0.75, 1.85, false, true, true},
