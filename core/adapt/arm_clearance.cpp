@@ -13,9 +13,9 @@ namespace ego {
 namespace {
 
 constexpr double kContactWeight = 10.0;   // of a touching hand point, against 1 of an arm sample
-constexpr double kHandMoveDamping = 0.1;  // in the same unit
-constexpr double kHandTurnDamping = 0.4;  // likewise, about the length of a hand
-constexpr double kArmDamping = 0.15;      // likewise, about the length of an arm
+constexpr double kHandMoveDamping = 0.5;  // in the same unit
+constexpr double kHandTurnDamping = 1.0;  // likewise, about the length of a hand
+constexpr double kArmDamping = 1.0;       // likewise, about the length of an arm
 constexpr double kAnchorWeight = 10.0;    // of the wrist's place while the arm gives way
 constexpr double kArmStep = 0.15;         // radians a step can hardly exceed
 constexpr double kHandStep = 0.30;
@@ -71,8 +71,9 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, R
       const bool other_arm = o == 2 || o == 3 || o == kObstacleCount - 1;
       const double share = other_arm ? 0.5 : 1.0;
       const double short_of = need - now.distance;
-      const double weight = Smoothstep(short_of / (0.02 * height));
-      const double touching = contact && performer.known ? 1.0 - Smoothstep(clearance / fade) : 0.0;
+      const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
+      const double touching =
+          contact && performer.known ? performer.trust * (1.0 - Smoothstep(clearance / fade)) : 0.0;
       if (touching > 0.0) {
         rows.Add({s, now.gradient, share * (clearance - now.distance), kContactWeight * touching});
       }

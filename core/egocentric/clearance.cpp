@@ -2,6 +2,7 @@
 #include "core/egocentric/clearance.h"
 
 #include "core/geometry/rotation.h"
+#include "core/geometry/smooth.h"
 
 namespace ego {
 namespace {
@@ -69,6 +70,7 @@ void MeasureClearance(const Body& performer, const PosedBody& posed, Limb arm,
           sample.center - capsule.At(ClosestOnSegment(sample.center, capsule.start, capsule.end));
       const double reach = glm::length(from_axis);
       clearance.known = true;
+      clearance.trust = Smoothstep(reach / (capsule.radius + sample.radius));
       clearance.distance = (reach - capsule.radius - sample.radius) / performer.height;
       clearance.direction_ls =
           glm::transpose(capsule.frame) * NormalizedOr(from_axis, capsule.frame[1]);

@@ -91,6 +91,8 @@ struct Clearance {
   double distance = 0.0;
   bool known = false;
   Vec3 direction_ls{0.0};  // capsules: from the axis, in the obstacle's bone frame
+  double trust = 1.0;      // capsules: fades where the sample nears the axis, where no direction
+                           // leads out
 };
 
 /// Which readings of the representation were used; `Adapt` follows them.

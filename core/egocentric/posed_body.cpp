@@ -144,7 +144,10 @@ void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, Pose
   }
   PosedCapsule& hand = posed.hand[Index(limb)];
   hand.start = posed.pose.Position(joints.end);
-  hand.end = posed.point[Index(FingertipPoint(limb))];
+  // In the middle of the hand's thickness, so that the palm lies on the capsule.
+  const Vec3& tip = constants.hand_point_offset[Index(FingertipPoint(limb)) - kLimbJointCount];
+  hand.end =
+      hand.start + rotation * Perpendicular(tip, body.surface.hand[Index(limb)].palm_normal_ms);
   hand.radius = body.surface.hand[Index(limb)].half_thickness;
   hand.frame = glm::mat3_cast(rotation) * constants.segment_frame[2 * Index(limb) + 1];
 }

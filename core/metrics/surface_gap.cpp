@@ -25,6 +25,16 @@ double SolidAngle(const Vec3& a, const Vec3& b, const Vec3& c) {
 double MeshDistance(const MeasuredBody& body, const Vec3& p, std::size_t first, std::size_t end) {
   double nearest = 1e9;
   double winding = 0.0;
+  Vec3 low{1e9};
+  Vec3 high{-1e9};
+  for (std::size_t t = first; t < end; ++t) {
+    for (const SamplePoint s : SampleTriangles()[t]) {
+      low = glm::min(low, body.sample_ws[Index(s)]);
+      high = glm::max(high, body.sample_ws[Index(s)]);
+    }
+  }
+  const bool may_be_inside =
+      glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
   for (std::size_t t = first; t < end; ++t) {
     const SampleTriangle& s = SampleTriangles()[t];
     const Vec3& a = body.sample_ws[Index(s[0])];
@@ -33,7 +43,7 @@ double MeshDistance(const MeasuredBody& body, const Vec3& p, std::size_t first, 
     const Triangle triangle = Triangle::Of(a, b, c);
     nearest = std::min(nearest,
                        glm::distance(p, AtBarycentric(triangle, ClosestOnTriangle(triangle, p))));
-    winding += SolidAngle(a - p, b - p, c - p);
+    if (may_be_inside) winding += SolidAngle(a - p, b - p, c - p);
   }
   return winding > 2.0 * kPi ? -nearest : nearest;
 }

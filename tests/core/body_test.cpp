@@ -98,7 +98,8 @@ TEST(Pose, MirroringTwiceGivesTheSameAndMirrorsPositions) {
   Pose pose = CanonicalPose(skeleton);
   for (std::size_t i = 0; i < kJointCount; ++i) {
     const double a = 0.1 * static_cast<double>(i + 1);
-    pose.rotation_ls[i] = glm::angleAxis(a, glm::normalize(Vec3{std::sin(3.0 * a), std::cos(a), a}));
+    pose.rotation_ls[i] =
+        glm::angleAxis(a, glm::normalize(Vec3{std::sin(3.0 * a), std::cos(a), a}));
   }
   const ModelPose posed = ForwardKinematics(skeleton, pose);
   const ModelPose mirrored = ForwardKinematics(skeleton, Mirrored(pose));

@@ -2,16 +2,19 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "core/baselines/retarget_method.h"
 #include "core/egocentric/normalize.h"
+#include "tests/core/allocation_counter.h"
 #include "tests/support/bodies.h"
 #include "tests/support/postures.h"
 
 namespace ego::test {
+
 namespace {
 
 /// Largest distance of any joint between two poses, metres.
@@ -68,6 +71,179 @@ TEST_P(Laws, UniformScaleKeepsJointAngles) {
       EXPECT_LT(RotationError(pose, out), 1e-5) << name;
       EXPECT_LT(glm::distance(out.root_ws, factor * pose.root_ws), 1e-9 * scaled.height) << name;
     }
+  }
+}
+
+TEST_P(Laws, NothingBeforeMatters) {
+  const Body performer = TemplateBody();
+  const std::vector<Body> avatars = StudyBodies();
+  std::vector<Pose> poses;
+  for (const std::string_view name : PostureNames()) poses.push_back(Posture(performer, name, 0.2));
+  std::vector<std::vector<Pose>> first(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (const Body& avatar : avatars) first[i].push_back(Map(performer, poses[i], avatar));
+  }
+  method_ = MakeRetargetMethod(GetParam());  // a fresh one, other order
+  for (std::size_t i = poses.size(); i-- > 0;) {
+    for (std::size_t a = avatars.size(); a-- > 0;) {
+      const Pose again = Map(performer, poses[i], avatars[a]);
+      EXPECT_EQ(again.root_ws, first[i][a].root_ws);
+      EXPECT_EQ(again.rotation_ls, first[i][a].rotation_ls);
+    }
+  }
+}
+
+TEST_P(Laws, MirroredInputGivesMirroredOutput) {
+  // One limb after the other, as the text has it, cannot be symmetric.
+  if (GetParam() == "paper") GTEST_SKIP() << "sequential limbs are not symmetric";
+  const Body performer = TemplateBody();
+  for (const Body& avatar : StudyBodies()) {
+    for (const std::string_view name : PostureNames()) {
+      const Pose pose = Posture(performer, name, 0.3);
+      const Pose there = Mirrored(Map(performer, pose, avatar));
+      const Pose here = Map(performer, Mirrored(pose), avatar);
+      EXPECT_LT(JointError(avatar, here, there) / avatar.height, 1e-6)
+          << avatar.name << ": " << name;
+    }
+  }
+}
+
+TEST_P(Laws, TurningAndShiftingTheInputTurnsAndShiftsTheOutput) {
+  const Body performer = TemplateBody();
+  const Quat yaw = glm::angleAxis(2.1, kUp);
+  const Vec3 shift{3.0, 0.0, -7.0};
+  for (const Body& avatar : StudyBodies()) {
+    const double scale = avatar.standing_root_height / performer.standing_root_height;
+    for (const std::string_view name : PostureNames()) {
+      const Pose pose = Posture(performer, name, 0.3);
+      Pose moved = pose;
+      moved.root_ws = yaw * pose.root_ws + shift;
+      moved.rotation_ls[0] = yaw * pose.rotation_ls[0];
+      Pose expected = Map(performer, pose, avatar);
+      expected.root_ws = yaw * expected.root_ws + scale * shift;
+      expected.rotation_ls[0] = yaw * expected.rotation_ls[0];
+      EXPECT_LT(JointError(avatar, Map(performer, moved, avatar), expected) / avatar.height, 1e-6)
+          << avatar.name << ": " << name;
+    }
+  }
+}
+
+TEST_P(Laws, PoorRigsAreServed) {
+  const Body performer = TemplateBody();
+  const Body avatar = PoorRig();
+  for (const std::string_view name : PostureNames()) {
+    const Pose out = Map(performer, Posture(performer, name, 0.3), avatar);
+    const ModelPose posed = ForwardKinematics(avatar.skeleton, out);
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Quat& q = out.rotation_ls[j];
+      EXPECT_NEAR(glm::length(q), 1.0, 1e-9) << name << " joint " << j;
+      if (avatar.skeleton.locked[j]) {
+        EXPECT_EQ(q, kIdentity) << name << " joint " << j;
+      }
+      EXPECT_TRUE(std::isfinite(posed.position_ws[j].x + posed.position_ws[j].y)) << name;
+    }
+    // The chest faces where the performer's does, though it has one joint for three.
+    const ModelPose source = ForwardKinematics(performer.skeleton, Posture(performer, name, 0.3));
+    const Vec3 facing = posed.Rotation(HumanoidJoint::kUpperChest) * Vec3{0.0, 0.0, 1.0};
+    const Vec3 wanted = source.Rotation(HumanoidJoint::kUpperChest) * Vec3{0.0, 0.0, 1.0};
+    EXPECT_GT(glm::dot(facing, wanted), std::cos(Radians(25.0))) << name;
+  }
+}
+
+TEST_P(Laws, SmallNoiseHasBoundedGain) {
+  const Body performer = TemplateBody();
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const double sigma = Radians(0.01);
+  std::vector<double> gains;
+  for (const std::string_view name : PostureNames()) {
+    const Pose pose = Posture(performer, name, 0.3);
+    for (int trial = 0; trial < 4; ++trial) {
+      Pose noisy = pose;
+      for (Quat& q : noisy.rotation_ls) {
+        const Vec3 r = sigma * Vec3{normal(random), normal(random), normal(random)};
+        q = glm::normalize(Quat(1.0, 0.5 * r.x, 0.5 * r.y, 0.5 * r.z) * q);
+      }
+      const double in = JointError(performer, pose, noisy) / performer.height;
+      for (const Body& avatar : StudyBodies()) {
+        const double out =
+            JointError(avatar, Map(performer, pose, avatar), Map(performer, noisy, avatar)) /
+            avatar.height;
+        gains.push_back(out / in);
+      }
+    }
+  }
+  std::sort(gains.begin(), gains.end());
+  RecordProperty("gain_p50", std::to_string(gains[gains.size() / 2]));
+  RecordProperty("gain_max", std::to_string(gains.back()));
+  EXPECT_LT(gains[gains.size() / 2], 2.0);
+  EXPECT_LT(gains[gains.size() * 95 / 100], 10.0);
+  EXPECT_LT(gains.back(), GetParam() == "paper" ? 200.0 : 25.0);
+}
+
+TEST_P(Laws, TheFrameLoopDoesNotAllocate) {
+  const Body performer = TemplateBody();
+  const Body avatar = Child();
+  const Pose pose = Posture(performer, "arms crossed", 0.3);
+  Pose out;
+  method_->SetPerformerPose(performer, pose);  // static tables are made once
+  method_->Adapt(avatar, out);
+  const long before = AllocationCount();
+  method_->SetPerformerPose(performer, pose);
+  method_->Adapt(avatar, out);
+  EXPECT_EQ(AllocationCount(), before);
+  auto probe = std::make_unique<int>(1);  // the counter counts
+  EXPECT_GT(AllocationCount(), before);
+}
+
+TEST(Normalize, ImportancesSumToOne) {
+  const Body performer = TemplateBody();
+  for (const NormalizeSettings& settings : {NormalizeSettings{}, NormalizeSettings::Paper()}) {
+    for (const std::string_view name : PostureNames()) {
+      auto egocentric = std::make_unique<EgocentricPose>();
+      Normalize(performer, Posture(performer, name, 0.3), settings, *egocentric);
+      const std::size_t points = settings.form.hand_points ? kLimbPointCount : kLimbJointCount;
+      for (std::size_t j = 0; j < points; ++j) {
+        const PointCoordinates& point = egocentric->point[j];
+        double sum = point.hand.importance + point.ground.importance;
+        for (const TriangleRelation& r : point.triangle) {
+          EXPECT_GE(r.importance, 0.0);
+          sum += r.importance;
+        }
+        for (const CapsuleRelation& r : point.capsule) sum += r.importance;
+        EXPECT_NEAR(sum, 1.0, 1e-12) << name << " point " << j;
+      }
+    }
+  }
+}
+
+TEST(Normalize, LeavesNoMetre) {
+  const Body performer = TemplateBody();
+  const double factor = 0.4;
+  const Body scaled = Scaled(performer, factor);
+  for (const std::string_view name : PostureNames()) {
+    Pose pose = Posture(performer, name, 0.3);
+    auto a = std::make_unique<EgocentricPose>();
+    auto b = std::make_unique<EgocentricPose>();
+    Normalize(performer, pose, {}, *a);
+    pose.root_ws *= factor;
+    Normalize(scaled, pose, {}, *b);
+    EXPECT_LT(glm::distance(a->root, b->root), 1e-12);
+    for (std::size_t j = 0; j < kLimbPointCount; ++j) {
+      EXPECT_NEAR(a->point[j].importance_sum / b->point[j].importance_sum, 1.0, 1e-9);
+      for (std::size_t t = 0; t < kTriangleCount; ++t) {
+        EXPECT_NEAR(a->point[j].triangle[t].distance.gap, b->point[j].triangle[t].distance.gap,
+                    1e-5);
+      }
+    }
+  }
+}
+
+TEST(RetargetMethod, UnknownNamesGiveNothing) {
+  EXPECT_EQ(MakeRetargetMethod("akc2"), nullptr);
+  for (const std::string_view name : RetargetMethodNames()) {
+    ASSERT_NE(MakeRetargetMethod(name), nullptr);
+    EXPECT_EQ(MakeRetargetMethod(name)->name(), name);
   }
 }
 

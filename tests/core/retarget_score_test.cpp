@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "core/metrics/retarget_score.h"
+
+#include <gtest/gtest.h>
+
+#include "core/baselines/retarget_method.h"
+#include "core/metrics/surface_gap.h"
+#include "tests/support/bodies.h"
+#include "tests/support/postures.h"
+
+namespace ego::test {
+namespace {
+
+/// `stride` leaves frames out where no speeds are asked for.
+RetargetScore ScoreOf(std::string_view method_name, const Body& avatar, std::string_view motion,
+                      std::size_t stride = 1) {
+  const Body performer = TemplateBody();
+  const auto method = MakeRetargetMethod(method_name);
+  RetargetScore score;
+  const std::vector<Pose> poses = Motion(performer, motion);
+  for (std::size_t k = 0; k < poses.size(); k += stride) {
+    const Pose& pose = poses[k];
+    Pose out;
+    method->SetPerformerPose(performer, pose);
+    method->Adapt(avatar, out);
+    Accumulate(performer, pose, avatar, out, kMotionRate, {}, score);
+  }
+  return score;
+}
+
+TEST(SurfaceGap, KnowsInsideFromOutside) {
+  const Body body = TemplateBody();
+  const MeasuredBody measured(body, CanonicalPose(body.skeleton));
+  EXPECT_LT(TrunkDistance(measured, {0.0, 1.2, -0.02}), -0.05);
+  EXPECT_GT(TrunkDistance(measured, {0.0, 1.2, 0.5}), 0.3);
+  EXPECT_LT(HeadDistance(measured, {0.0, 1.66, 0.0}), -0.03);
+  EXPECT_NEAR(HeadDistance(measured, {0.0, 1.98, 0.0}), 0.20, 1e-9);  // straight over the crown
+  EXPECT_NEAR(SurfaceGap(measured, Limb::kLeftArm, {-0.5, 1.7, 0.0}),
+              1.7 - measured.pose.Position(HumanoidJoint::kRightLowerArm).y - 0.036, 0.03);
+}
+
+TEST(RetargetScore, TheMotionItselfScoresZero) {
+  const Body performer = TemplateBody();
+  RetargetScore score;
+  for (const Pose& pose : Motion(performer, "hands on belly")) {
+    Accumulate(performer, pose, performer, pose, kMotionRate, {}, score);
+  }
+  EXPECT_EQ(score.frames, 120u);
+  EXPECT_GT(score.palm.gap_error.count, 60u);
+  EXPECT_EQ(score.palm.gap_error.max, 0.0);
+  EXPECT_EQ(score.palm.Recall(), 1.0);
+  EXPECT_EQ(score.arm_penetration.max, 0.0);
+  EXPECT_EQ(score.foot_slide.max, 0.0);
+  EXPECT_EQ(score.largest_added_step, 0.0);
+  EXPECT_GT(score.largest_step, 0.0);
+}
+
+TEST(RetargetScore, SeesALiftedHandAndAJump) {
+  const Body performer = TemplateBody();
+  const Pose pose = Posture(performer, "hands on belly");
+  Pose lifted = pose;
+  Quat& elbow = lifted.rotation_ls[Index(HumanoidJoint::kLeftLowerArm)];
+  elbow = elbow * glm::angleAxis(-0.3, FlexionAxis(Limb::kLeftArm));
+  RetargetScore score;
+  Accumulate(performer, pose, performer, pose, 60.0, {}, score);
+  Accumulate(performer, pose, performer, lifted, 60.0, {}, score);
+  EXPECT_GT(score.palm.gap_error.max, 0.01);
+  EXPECT_LT(score.palm.Recall(), 1.0);
+  EXPECT_NEAR(score.largest_added_step, 0.3, 1e-6);
+  EXPECT_EQ(score.largest_added_step_frame, 1u);
+}
+
+// The goal of the method, against joint angles alone, on bodies of other proportions.
+TEST(Contacts, AreKeptOnOtherBodies) {
+  for (const Body& avatar : {Woman(), Child(), Alien(), LongArms()}) {
+    RetargetScore kept;
+    RetargetScore copied;
+    for (const std::string_view motion : MotionNames()) {
+      const auto add = [](const RetargetScore& one, RetargetScore& all) {
+        for (const auto& [from, to] :
+             {std::pair{&one.palm, &all.palm}, std::pair{&one.fingertip, &all.palm}}) {
+          to->gap_error.sum += from->gap_error.sum;
+          to->gap_error.count += from->gap_error.count;
+          to->recalled += from->recalled;
+        }
+      };
+      add(ScoreOf("mdb", avatar, motion, 4), kept);
+      add(ScoreOf("copy", avatar, motion, 4), copied);
+    }
+    EXPECT_LT(kept.palm.gap_error.Mean(), 0.005) << avatar.name;
+    EXPECT_GT(kept.palm.Recall(), 0.95) << avatar.name;
+    EXPECT_LT(kept.palm.gap_error.Mean(), 0.5 * copied.palm.gap_error.Mean()) << avatar.name;
+  }
+}
+
+TEST(Walk, GainsNoJumpsAndKeepsItsFeet) {
+  for (const Body& avatar : StudyBodies()) {
+    const RetargetScore score = ScoreOf("mdb", avatar, "walk");
+    EXPECT_LT(Degrees(score.largest_added_step), 5.0) << avatar.name;
+    EXPECT_LT(score.foot_height_error.Mean(), 0.003) << avatar.name;
+    EXPECT_LT(score.foot_height_error.max, 0.01) << avatar.name;
+    EXPECT_LT(score.foot_slide.Mean(), 0.003) << avatar.name;
+  }
+}
+
+// Arms crossed: the right forearm lies over the left one on every body, as it does on the
+// performer.
+TEST(SpatialOrder, OfCrossedArmsIsKept) {
+  const Body performer = TemplateBody();
+  const auto over = [](const Body& body, const Pose& pose) {
+    const ModelPose m = ForwardKinematics(body.skeleton, pose);
+    const Vec3 a0 = m.Position(HumanoidJoint::kLeftLowerArm);
+    const Vec3 a = m.Position(HumanoidJoint::kLeftHand) - a0;
+    const Vec3 b0 = m.Position(HumanoidJoint::kRightLowerArm);
+    const Vec3 b = m.Position(HumanoidJoint::kRightHand) - b0;
+    return glm::dot(glm::normalize(glm::cross(a, b)), b0 - a0) *
+           (glm::cross(a, b).z > 0.0 ? 1.0 : -1.0);
+  };
+  const Pose pose = Posture(performer, "arms crossed", 0.3);
+  ASSERT_GT(over(performer, pose), 0.0);
+  for (const std::string_view name : {"mdb", "paper"}) {
+    const auto method = MakeRetargetMethod(name);
+    method->SetPerformerPose(performer, pose);
+    for (const Body& avatar : StudyBodies()) {
+      Pose out;
+      method->Adapt(avatar, out);
+      EXPECT_GT(over(avatar, out), 0.0) << avatar.name << " " << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ego::test
