@@ -12,7 +12,9 @@
 namespace ego {
 namespace {
 
-constexpr double kContactWeight = 10.0;   // of a touching hand point, against 1 of an arm sample
+constexpr double kContactWeight = 10.0;  // of a touching hand point, against 1 of an arm sample
+// Two arms that touch each other move against each other: a softer pull, or they shiver.
+constexpr double kMutualWeight = 0.6;
 constexpr double kHandMoveDamping = 0.5;  // in the same unit
 constexpr double kHandTurnDamping = 1.0;  // likewise, about the length of a hand
 constexpr double kArmDamping = 1.0;       // likewise, about the length of an arm
@@ -75,7 +77,8 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, R
       const double touching =
           contact && performer.known ? performer.trust * (1.0 - Smoothstep(clearance / fade)) : 0.0;
       if (touching > 0.0) {
-        rows.Add({s, now.gradient, share * (clearance - now.distance), kContactWeight * touching});
+        rows.Add({s, now.gradient, share * (clearance - now.distance),
+                  (other_arm ? kMutualWeight : kContactWeight) * touching});
       }
       if (weight > 0.0) rows.Add({s, now.gradient, share * short_of, weight});
     }
