@@ -111,14 +111,15 @@ std::size_t CountVisible(const MarkerModel& model, const MarkerFrame& frame) {
   return count;
 }
 
-double MeanResidual(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose) {
+/// `cap`: what one marker may count at most, so that a lone ghost does not look like a lost body.
+double MeanResidual(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose,
+                    double cap = std::numeric_limits<double>::infinity()) {
   double sum = 0.0;
   std::size_t count = 0;
   for (const BoundMarker& marker : model.markers) {
     if (!frame.visible[marker.label]) continue;
-    sum +=
-        glm::distance(pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls,
-                      frame.position_ws[marker.label]);
+    const Vec3 point = pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls;
+    sum += std::min(cap, glm::distance(point, frame.position_ws[marker.label]));
     ++count;
   }
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
@@ -152,7 +153,9 @@ PoseSolverReport PoseSolver::Solve(const MarkerFrame& frame, State& state) const
   report.mean_residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
   report.solved = true;
 
-  if (!(report.mean_residual < options_.restart_residual)) {
+  constexpr double kGhost = 0.1;
+  if (!(MeanResidual(model_, frame, Placed(model_.skeleton, posture), kGhost) <
+        options_.restart_residual)) {
     State fresh;
     const PoseSolverReport cold = SolveCold(frame, fresh);
     // Judged without the temporal prior, which a restart rightly breaks.
