@@ -63,8 +63,6 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, R
     const ArmSample sample = SampleOf(state.avatar, state.posed, arm, s);
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
       const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
-      SignedDistance now;
-      if (!Measure(state, body, arm, sample, performer, o, now)) continue;
       const double clearance = performer.distance * height;
       const double need = !performer.known   ? margin
                           : clearance <= 0.0 ? clearance
@@ -72,10 +70,14 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, R
       // Both arms move when one is in the other's way.
       const bool other_arm = o == 2 || o == 3 || o == kObstacleCount - 1;
       const double share = other_arm ? 0.5 : 1.0;
-      const double short_of = need - now.distance;
-      const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
       const double touching =
           contact && performer.known ? performer.trust * (1.0 - Smoothstep(clearance / fade)) : 0.0;
+      // Far from the whole mesh nothing can be asked: most samples of most postures.
+      if (o < 2 && touching == 0.0 && body.LowerBound(o, sample) > need + 0.01 * height) continue;
+      SignedDistance now;
+      if (!Measure(state, body, arm, sample, performer, o, now)) continue;
+      const double short_of = need - now.distance;
+      const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
       if (touching > 0.0) {
         rows.Add({s, now.gradient, share * (clearance - now.distance),
                   (other_arm ? kMutualWeight : kContactWeight) * touching});

@@ -40,7 +40,7 @@ BodyObstacles::BodyObstacles(const Body& body, const PosedBody& posed) : height_
 
 bool BodyObstacles::Distance(std::size_t obstacle, const ArmSample& sample,
                              SignedDistance& out) const {
-  if (box_[obstacle].Distance(sample.center) - sample.radius > kCull * height_) return false;
+  if (LowerBound(obstacle, sample) > kCull * height_) return false;
   out = SmoothMeshDistance(mesh_[obstacle], sample.center, kSmoothing * height_, width_[obstacle]);
   out.distance -= sample.radius;
   return true;

@@ -21,6 +21,10 @@ struct BodyObstacles {
   /// Signed distance of a sphere's skin to obstacle 0 (trunk) or 1 (head). False, and nothing
   /// written, where it is farther than a twentieth of the body's height.
   bool Distance(std::size_t obstacle, const ArmSample& sample, SignedDistance& out) const;
+  /// Never more than the distance from the sphere's skin to the mesh, at hardly any cost.
+  double LowerBound(std::size_t obstacle, const ArmSample& sample) const {
+    return box_[obstacle].Distance(sample.center) - sample.radius;
+  }
 
  private:
   std::array<std::span<const Triangle>, 2> mesh_;
