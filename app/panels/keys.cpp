@@ -38,11 +38,13 @@ void ShowKeys(Studio& studio) {
   if (!studio.show_keys) return;
   const Rect& view = studio.layout().viewport;
   const float width = Px(360.0f);
-  const float height = Px(24.0f) + Px(24.0f) + Px(22.0f) * static_cast<float>(std::size(kLines));
+  const float height = Px(18.0f) + Px(22.0f) * static_cast<float>(std::size(kLines));
   const Rect rect{view.x + 0.5f * (view.width - width), view.y + 0.5f * (view.height - height),
                   width, height};
   ImGui::SetNextWindowFocus();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6.0f));
   BeginPanel("keys", rect, look::kRaised);
+  ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                       {Px(8.0f), Px(22.0f) - ImGui::GetTextLineHeight()});
   for (const Line& line : kLines) {

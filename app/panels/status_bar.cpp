@@ -53,10 +53,8 @@ void ShowStatusBar(Studio& studio) {
     const float row = ImGui::GetCursorPosY();
     if (const auto activity = studio.loader().activity()) {
       ShowActivity(studio, *activity);
-    } else if (studio.message()) {
-      const bool error = studio.message()->kind == Message::Kind::kError;
-      ImGui::TextColored(Vec(error ? look::kBad : look::kQuiet), "%s",
-                         studio.message()->text.c_str());
+    } else if (studio.message() && studio.message()->kind == Message::Kind::kInfo) {
+      ImGui::TextColored(Vec(look::kQuiet), "%s", studio.message()->text.c_str());
     } else {
       ImGui::TextColored(Vec(look::kOff), "Ready.  ? shows all keys.");
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <imgui.h>
 
+#include <algorithm>
 #include <string>
 
 #include "app/panels/panels.h"
@@ -28,7 +29,7 @@ void ShowTopBar(Studio& studio) {
     ImGui::PushFont(Gui::Current().fonts().section);
     ImGui::TextUnformatted("Egostudio");
     ImGui::PopFont();
-    ImGui::SameLine(studio.layout().viewport.x + Px(12.0f));
+    ImGui::SameLine(std::max(studio.layout().viewport.x + Px(12.0f), Px(120.0f)));
     if (const TakeEntry* take = studio.current_take()) {
       ImGui::TextUnformatted(take->take.name.c_str());
     }
