@@ -13,7 +13,7 @@ namespace ego {
 namespace {
 
 constexpr double kContactWeight = 10.0;  // of a touching hand point, against 1 of an arm sample
-// Two arms that touch each other move against each other: a softer pull, or they shiver.
+// Two hands that touch each other move against each other: a softer pull, or they shiver.
 constexpr double kMutualWeight = 0.6;
 constexpr double kHandMoveDamping = 0.5;  // in the same unit
 constexpr double kHandTurnDamping = 1.0;  // likewise, about the length of a hand
@@ -67,8 +67,9 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, R
       const double need = !performer.known   ? margin
                           : clearance <= 0.0 ? clearance
                                              : margin * -std::expm1(-clearance / margin);
+      const bool other_hand = o == kObstacleCount - 1;
       // Both arms move when one is in the other's way.
-      const bool other_arm = o == 2 || o == 3 || o == kObstacleCount - 1;
+      const bool other_arm = o == 2 || o == 3 || other_hand;
       const double share = other_arm ? 0.5 : 1.0;
       const double touching =
           contact && performer.known ? performer.trust * (1.0 - Smoothstep(clearance / fade)) : 0.0;
@@ -80,7 +81,7 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, R
       const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
       if (touching > 0.0) {
         rows.Add({s, now.gradient, share * (clearance - now.distance),
-                  (other_arm ? kMutualWeight : kContactWeight) * touching});
+                  (other_hand ? kMutualWeight : kContactWeight) * touching});
       }
       if (weight > 0.0) rows.Add({s, now.gradient, share * short_of, weight});
     }
