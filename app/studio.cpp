@@ -128,7 +128,17 @@ void Studio::UndoRemove() {
   }
 }
 
-void Studio::TogglePlaying() { stage_.Play(!frame().playing); }
+void Studio::TogglePlaying() {
+  // Presses may come faster than frames: each counts from the one before.
+  if (frame().commands_done == stage_.commands_given()) wants_playing_ = frame().playing;
+  wants_playing_ = !wants_playing_;
+  stage_.Play(wants_playing_);
+}
+
+void Studio::Step(std::ptrdiff_t frames) {
+  wants_playing_ = false;
+  stage_.Step(frames);
+}
 
 void Studio::SetSpeed(double speed) {
   speed_ = std::clamp(speed, Playhead::kSlowest, Playhead::kFastest);
@@ -180,7 +190,10 @@ void Studio::TakeInLoaded() {
       Say(Message::Kind::kInfo, "Opened " + take->name + ".");
       takes_.push_back({id, std::move(*take)});
       SelectTake(id);
-      if (takes_.size() == 1) stage_.Play(true);
+      if (takes_.size() == 1) {
+        wants_playing_ = true;
+        stage_.Play(true);
+      }
     } else {
       LoadedAvatar& avatar = std::get<LoadedAvatar>(**result);
       Say(Message::Kind::kInfo, "Opened " + avatar.name + ".");

@@ -78,6 +78,8 @@ class Studio {
   StageThread& stage() { return stage_; }
   const StageFrame& frame() const { return stage_.frame(); }
   void TogglePlaying();
+  /// Pauses and moves by so many frames.
+  void Step(std::ptrdiff_t frames);
   void SetSpeed(double speed);
   double speed() const { return speed_; }
   void SetLoop(bool loop);
@@ -138,6 +140,7 @@ class Studio {
   Rect framed_view_;
   double speed_ = 1.0;
   bool loop_ = true;
+  bool wants_playing_ = false;  // as last commanded; the frame shown may not know yet
   std::string method_;
   std::optional<Message> message_;
 

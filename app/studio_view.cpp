@@ -25,7 +25,9 @@ void Studio::DrawStage() {
   target.y = window_->height() - static_cast<int>(view.y + view.height);
   target.width = static_cast<int>(view.width);
   target.height = static_cast<int>(view.height);
-  target.content_scale = gui_.scale();
+  // Names must not crowd a narrow viewport.
+  const float room = view.width / (1000.0f * gui_.scale());
+  target.content_scale = gui_.scale() * std::clamp(room, 0.7f, 1.0f);
   picture_.renderer().Draw(stage, target);
 }
 
@@ -82,10 +84,10 @@ void Studio::HandleKeys() {
     const std::ptrdiff_t step = press.shift ? 10 : 1;
     switch (press.key) {
       case GLFW_KEY_LEFT:
-        stage_.Step(-step);
+        Step(-step);
         continue;
       case GLFW_KEY_RIGHT:
-        stage_.Step(step);
+        Step(step);
         continue;
       default:
         break;

@@ -27,14 +27,14 @@ void ShowTransport(Studio& studio, const CapturedMotion& motion) {
   const std::size_t last = motion.poses.size() - 1;
   if (SignButton("first", Sign::kFirst, "First frame (Home)")) stage.Seek(0);
   ImGui::SameLine(0.0f, 0.0f);
-  if (SignButton("back", Sign::kBack, "One frame back (Left)")) stage.Step(-1);
+  if (SignButton("back", Sign::kBack, "One frame back (Left)")) studio.Step(-1);
   ImGui::SameLine(0.0f, 0.0f);
   if (SignButton("play", frame.playing ? Sign::kPause : Sign::kPlay,
                  frame.playing ? "Pause (Space)" : "Play (Space)", true)) {
     studio.TogglePlaying();
   }
   ImGui::SameLine(0.0f, 0.0f);
-  if (SignButton("forward", Sign::kForward, "One frame on (Right)")) stage.Step(1);
+  if (SignButton("forward", Sign::kForward, "One frame on (Right)")) studio.Step(1);
   ImGui::SameLine(0.0f, 0.0f);
   if (SignButton("last", Sign::kLast, "Last frame (End)")) stage.Seek(last);
   ImGui::SameLine(0.0f, Px(8.0f));

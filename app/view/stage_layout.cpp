@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kStaysWithin = 1.0;  // metres: a way shorter than this is no travel
 constexpr double kSmoothingSeconds = 1.0;
-constexpr double kGap = 0.12;            // metres between neighbours' reach
-constexpr double kSmallestReach = 0.27;  // shares of height
-constexpr double kLargestReach = 0.48;
+constexpr double kGap = 0.06;            // metres between neighbours' reach
+constexpr double kSmallestReach = 0.25;  // shares of height
+constexpr double kLargestReach = 0.42;
 
 Vec2 Ground(const Vec3& p) { return {p.x, p.z}; }
 
@@ -70,7 +70,7 @@ StageLayout::StageLayout(const CapturedMotion& motion) {
   }
   const auto reach = [&](const std::vector<double>& metres) {
     const double height = std::max(motion.performer.height, 0.1);
-    return std::clamp(Percentile(metres, 0.9) / height + 0.05, kSmallestReach, kLargestReach);
+    return std::clamp(Percentile(metres, 0.8) / height + 0.04, kSmallestReach, kLargestReach);
   };
   reach_sideways_ = reach(sideways);
   reach_depthwise_ = reach(depthwise);

@@ -143,6 +143,9 @@ TEST(StudioWindow, PlaysStepsScrubsAndSurvivesBadFiles) {
   Do("key space");
   ASSERT_TRUE(Settled(studio));
   EXPECT_FALSE(studio.frame().playing);
+  Do("key space key space");
+  ASSERT_TRUE(Settled(studio));
+  EXPECT_FALSE(studio.frame().playing);
   Do("key Home");
   Do("key Right key Right key Right key Left");
   ASSERT_TRUE(Settled(studio));
