@@ -120,7 +120,7 @@ int Retarget(const Arguments& arguments) {
     const Result<void> written = arguments.format == "bvh"
                                      ? WriteBvh(files[i], *avatar.body, all.poses[i], rate_hz)
                                      : WriteRetargeted(files[i], *avatar.character, all.poses[i],
-                                                       rate_hz, line.AsProgress());
+                                                       rate_hz, cast->take.name, line.AsProgress());
     if (!written) return Fail(written.error());
     all.outcomes[i].file = files[i].string();
   }

@@ -130,11 +130,12 @@ Json Channels(Json& root, GltfDocument& document, std::vector<Track>& tracks,
       add(track, track.translation, 3, "VEC3", "translation");
     }
   }
-  return {{"name", "egostudio"}, {"samplers", samplers}, {"channels", channels}};
+  return {{"samplers", samplers}, {"channels", channels}};
 }
 
 Result<void> Put(GltfDocument& document, std::span<const int> node_of, const Character& character,
-                 std::span<const Pose> poses, double rate_hz, const Progress& progress) {
+                 const PoseAnimation& animation, const Progress& progress) {
+  const std::span<const Pose> poses = animation.poses;
   Json root = Json::parse(document.json);
   root.erase("animations");
   const Rig& rig = character.rig;
@@ -193,13 +194,15 @@ Result<void> Put(GltfDocument& document, std::span<const int> node_of, const Cha
   }
   std::vector<float> times(poses.size());
   for (std::size_t f = 0; f < times.size(); ++f) {
-    times[f] = static_cast<float>(static_cast<double>(f) / rate_hz);
+    times[f] = static_cast<float>(static_cast<double>(f) / animation.rate_hz);
   }
   for (const char* key : {"bufferViews", "accessors"}) {
     if (!root.contains(key)) root[key] = Json::array();
   }
   const std::size_t input = AddAccessor(root, document, times, 1, "SCALAR");
-  root["animations"] = {Channels(root, document, tracks, node_of, input)};
+  Json written = Channels(root, document, tracks, node_of, input);
+  written["name"] = animation.name;
+  root["animations"] = {std::move(written)};
   root["buffers"] = {{{"byteLength", document.bin.size()}}};
   document.json = root.dump(-1, ' ', false, Json::error_handler_t::replace);
   return {};
@@ -208,14 +211,14 @@ Result<void> Put(GltfDocument& document, std::span<const int> node_of, const Cha
 }  // namespace
 
 Result<void> PutAnimation(GltfDocument& document, std::span<const int> node_of,
-                          const Character& character, std::span<const Pose> poses, double rate_hz,
+                          const Character& character, const PoseAnimation& animation,
                           const Progress& progress) {
   EGO_CHECK(node_of.size() == character.nodes.joints.size());
-  if (poses.empty() || !(rate_hz > 0.0)) {
+  if (animation.poses.empty() || !(animation.rate_hz > 0.0)) {
     return Error{document.name + ": an animation needs at least one pose and a rate above 0"};
   }
   try {
-    return Put(document, node_of, character, poses, rate_hz, progress);
+    return Put(document, node_of, character, animation, progress);
   } catch (const nlohmann::json::exception&) {
     return Error{document.name + ": its JSON does not have the structure of glTF 2.0"};
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "assets/gltf/gltf_document.h"
@@ -12,7 +13,14 @@
 
 namespace ego {
 
-/// Replaces the animations of a document by one that plays `poses` on the character. `node_of`
+/// Poses at times 0, 1 / rate_hz, ...
+struct PoseAnimation {
+  std::string_view name;
+  std::span<const Pose> poses;
+  double rate_hz = 0.0;
+};
+
+/// Replaces the animations of a document by one that plays on the character. `node_of`
 /// gives the document's node of each node of the character; nodes of skinned meshes keep their
 /// transform (it has no meaning).
 ///
@@ -20,7 +28,7 @@ namespace ego {
 /// in the canonical pose; it carries the change of axes and unit. Only nodes whose driver differs
 /// from their parent's turn against it, so only they (and the hips) get channels.
 Result<void> PutAnimation(GltfDocument& document, std::span<const int> node_of,
-                          const Character& character, std::span<const Pose> poses, double rate_hz,
+                          const Character& character, const PoseAnimation& animation,
                           const Progress& progress);
 
 }  // namespace ego

@@ -36,8 +36,9 @@ Result<void> WriteCharacter(const std::filesystem::path& path, const Character& 
 /// it but its animations, or, for generated characters (no source path), as WriteCharacter does.
 /// Rotations are written for the nodes that turn, translations for the hips and for nodes that
 /// move against their parents; never scales. `rate_hz` > 0; pose i is at time i / rate_hz.
+/// `animation_name` is what other programs list the animation as.
 Result<void> WriteRetargeted(const std::filesystem::path& path, const Character& character,
                              std::span<const Pose> poses, double rate_hz,
-                             const Progress& progress = {});
+                             std::string_view animation_name, const Progress& progress = {});
 
 }  // namespace ego

@@ -13,6 +13,7 @@
 #include "assets/files/file_io.h"
 #include "assets/gltf/animation_writer.h"
 #include "assets/gltf/character_file.h"
+#include "assets/gltf/glb_container.h"
 #include "assets/gltf/gltf_document.h"
 #include "assets/gltf/gltf_model.h"
 #include "assets/gltf/scene_reader.h"
@@ -288,7 +289,7 @@ Result<void> WriteCharacter(const std::filesystem::path& path, const Character& 
 
 Result<void> WriteRetargeted(const std::filesystem::path& path, const Character& character,
                              std::span<const Pose> poses, double rate_hz,
-                             const Progress& progress) {
+                             std::string_view animation_name, const Progress& progress) {
   try {
     std::vector<int> node_of;
     if (character.source_path.empty()) {
@@ -298,7 +299,9 @@ Result<void> WriteRetargeted(const std::filesystem::path& path, const Character&
     auto document = character.source_path.empty() ? Generated(character, path.filename().string())
                                                   : Reopened(character, node_of);
     if (!document) return Error{document.error()};
-    if (auto put = PutAnimation(*document, node_of, character, poses, rate_hz, progress); !put) {
+    if (auto put =
+            PutAnimation(*document, node_of, character, {animation_name, poses, rate_hz}, progress);
+        !put) {
       return put;
     }
     return WriteFileAtomically(path, PackGlb(document->json, document->bin));

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/files/file_io.h"
+#include "assets/gltf/glb_container.h"
+#include "assets/gltf/gltf_uri.h"
 #include "assets/gltf/meshopt_view.h"
 
 namespace ego {
@@ -15,9 +17,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint32_t kGlbMagic = 0x46546C67;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
-constexpr std::uint32_t kBinChunk = 0x004E4942;
 constexpr std::size_t kMaxBytes = std::size_t{1} << 31;
 /// Parsers recurse on nested JSON; glTF needs about ten levels.
 constexpr int kMaxDepth = 64;
@@ -30,59 +29,6 @@ constexpr std::array<std::string_view, 4> kUnderstood = {
 struct Refusal {
   std::string message;
 };
-
-std::uint32_t Word(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return static_cast<std::uint32_t>(bytes[at]) | static_cast<std::uint32_t>(bytes[at + 1]) << 8 |
-         static_cast<std::uint32_t>(bytes[at + 2]) << 16 |
-         static_cast<std::uint32_t>(bytes[at + 3]) << 24;
-}
-
-struct Chunks {
-  std::string_view json;
-  std::span<const std::uint8_t> bin;
-  bool has_bin = false;
-};
-
-std::string_view AsText(std::span<const std::uint8_t> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-Chunks Split(std::span<const std::uint8_t> bytes) {
-  if (bytes.size() < 4 || Word(bytes, 0) != kGlbMagic) {
-    const std::string_view text = AsText(bytes);
-    const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    if (begin == std::string_view::npos || text[begin] != '{') {
-      throw Refusal{"neither a GLB header nor JSON at its beginning; expected a glTF 2.0 file"};
-    }
-    return {text.substr(begin), {}, false};
-  }
-  if (bytes.size() < 20) throw Refusal{"the GLB header is truncated"};
-  if (Word(bytes, 4) != 2) {
-    throw Refusal{"GLB version " + std::to_string(Word(bytes, 4)) + "; expected 2"};
-  }
-  if (Word(bytes, 8) > bytes.size()) {
-    throw Refusal{"truncated: the GLB header says " + std::to_string(Word(bytes, 8)) +
-                  " bytes, the file has " + std::to_string(bytes.size())};
-  }
-  Chunks chunks;
-  std::size_t at = 12;
-  const std::size_t end = Word(bytes, 8);
-  while (at + 8 <= end) {
-    const std::size_t length = Word(bytes, at);
-    const std::uint32_t kind = Word(bytes, at + 4);
-    at += 8;
-    if (length > end - at) throw Refusal{"truncated: a GLB chunk runs past the end of the file"};
-    if (kind == kJsonChunk && chunks.json.empty()) {
-      chunks.json = AsText(bytes.subspan(at, length));
-    } else if (kind == kBinChunk && !chunks.has_bin) {
-      chunks.bin = bytes.subspan(at, length);
-      chunks.has_bin = true;
-    }
-    at += length;
-  }
-  if (chunks.json.empty()) throw Refusal{"the GLB has no JSON chunk"};
-  return chunks;
-}
 
 void CheckDepth(std::string_view json) {
   int depth = 0;
@@ -126,72 +72,11 @@ Json& Array(Json& root, const char* key) {
   return array;
 }
 
-int HexDigit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-std::string PercentDecoded(std::string_view uri) {
-  std::string out;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && HexDigit(uri[i + 1]) >= 0 &&
-        HexDigit(uri[i + 2]) >= 0) {
-      out.push_back(static_cast<char>(HexDigit(uri[i + 1]) * 16 + HexDigit(uri[i + 2])));
-      i += 2;
-    } else {
-      out.push_back(uri[i]);
-    }
-  }
-  return out;
-}
-
-std::vector<std::uint8_t> Base64(std::string_view text) {
-  std::vector<std::uint8_t> out;
-  out.reserve(text.size() / 4 * 3);
-  std::uint32_t bits = 0;
-  int have = 0;
-  for (const char c : text) {
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z') {
-      value = static_cast<std::uint32_t>(c - 'A');
-    } else if (c >= 'a' && c <= 'z') {
-      value = static_cast<std::uint32_t>(c - 'a' + 26);
-    } else if (c >= '0' && c <= '9') {
-      value = static_cast<std::uint32_t>(c - '0' + 52);
-    } else if (c == '+' || c == '-') {
-      value = 62;
-    } else if (c == '/' || c == '_') {
-      value = 63;
-    } else {
-      continue;
-    }
-    bits = bits << 6 | value;
-    have += 6;
-    if (have >= 8) {
-      have -= 8;
-      out.push_back(static_cast<std::uint8_t>(bits >> have & 0xFFu));
-    }
-  }
-  return out;
-}
-
-/// A file named by the document, below its folder.
-Result<std::vector<std::uint8_t>> ReadBeside(const std::string& uri,
-                                             const std::optional<std::filesystem::path>& folder) {
-  const std::string decoded = PercentDecoded(uri);
-  const std::filesystem::path path(decoded);
-  const bool climbs =
-      std::any_of(path.begin(), path.end(), [](const auto& p) { return p == ".."; });
-  if (decoded.empty() || path.is_absolute() || climbs ||
-      decoded.find_first_of(":\\") != std::string::npos ||
-      decoded.find('\0') != std::string::npos) {
-    throw Refusal{"it refers to '" + uri.substr(0, 120) +
-                  "'; only files beside it, without '..' or an absolute path, are read"};
-  }
-  if (!folder) throw Refusal{"it refers to the file '" + decoded + "', and no folder is known"};
-  return ReadFile(*folder / path);
+Result<std::vector<std::uint8_t>> ReadFileBeside(
+    const std::string& uri, const std::optional<std::filesystem::path>& folder) {
+  const auto path = PathBeside(uri, folder);
+  if (!path) throw Refusal{path.error()};
+  return ReadFile(*path);
 }
 
 std::size_t AppendAligned(std::vector<std::uint8_t>& bin, std::span<const std::uint8_t> bytes) {
@@ -209,7 +94,7 @@ struct Range {
 };
 
 /// Buffers, one after the other, into `bin`.
-std::vector<Range> GatherBuffers(Json& root, const Chunks& chunks, GltfDocument& document,
+std::vector<Range> GatherBuffers(Json& root, const GltfChunks& chunks, GltfDocument& document,
                                  const std::optional<std::filesystem::path>& folder) {
   std::vector<Range> ranges;
   for (const Json& buffer : Array(root, "buffers")) {
@@ -225,7 +110,7 @@ std::vector<Range> GatherBuffers(Json& root, const Chunks& chunks, GltfDocument&
         if (comma == std::string::npos) throw Refusal{what + " has a data URI without base64"};
         loaded = Base64(std::string_view(text).substr(comma + 8));
       } else {
-        auto file = ReadBeside(text, folder);
+        auto file = ReadFileBeside(text, folder);
         if (!file) throw Refusal{what + " cannot be read: " + file.error()};
         loaded = *std::move(file);
       }
@@ -297,21 +182,27 @@ void GatherViews(Json& root, const std::vector<Range>& buffers, GltfDocument& do
   }
 }
 
+/// What a file that was beside the document is, by its first bytes.
+const char* MimeType(const std::vector<std::uint8_t>& file) {
+  if (file.size() > 2 && file[0] == 0xFF && file[1] == 0xD8) return "image/jpeg";
+  if (file.size() > 2 && file[0] == 'R' && file[1] == 'I') return "image/webp";
+  return "image/png";
+}
+
 void GatherImages(Json& root, GltfDocument& document,
                   const std::optional<std::filesystem::path>& folder) {
   if (!root.contains("images")) return;
   for (Json& image : Array(root, "images")) {
     const std::string uri = TextOr(image, "uri", "");
     if (uri.empty() || uri.starts_with("data:")) continue;
-    const auto file = ReadBeside(uri, folder);
+    const auto file = ReadFileBeside(uri, folder);
     if (!file) {
       document.notes.push_back("texture left out: " + file.error());
       continue;
     }
-    const bool jpeg = file->size() > 2 && (*file)[0] == 0xFF && (*file)[1] == 0xD8;
     const std::size_t at = AppendAligned(document.bin, *file);
     image.erase("uri");
-    image["mimeType"] = jpeg ? "image/jpeg" : "image/png";
+    image["mimeType"] = MimeType(*file);
     image["bufferView"] = root["bufferViews"].size();
     root["bufferViews"].push_back(
         {{"buffer", 0}, {"byteOffset", at}, {"byteLength", file->size()}});
@@ -361,27 +252,27 @@ GltfDocument Open(std::span<const std::uint8_t> bytes, std::string_view name,
                   const std::optional<std::filesystem::path>& folder) {
   GltfDocument document;
   document.name = name;
-  const Chunks chunks = Split(bytes);
-  CheckDepth(chunks.json);
-  Json root = Json::parse(chunks.json, nullptr, false);
+  const Result<GltfChunks> chunks = SplitGlb(bytes);
+  if (!chunks) throw Refusal{chunks.error()};
+  CheckDepth(chunks->json);
+  Json root = Json::parse(chunks->json, nullptr, false);
   if (root.is_discarded() || !root.is_object()) throw Refusal{"its JSON is malformed or cut off"};
   const Json asset = root.value("asset", Json::object());
   if (!asset.is_object() || !TextOr(asset, "version", "").starts_with("2.")) {
     throw Refusal{"it does not say that it is glTF 2.0 (asset.version)"};
   }
   CheckExtensions(root);
-  const std::vector<Range> buffers = GatherBuffers(root, chunks, document, folder);
+  const std::vector<Range> buffers = GatherBuffers(root, *chunks, document, folder);
   GatherViews(root, buffers, document);
   GatherImages(root, document, folder);
   root.erase("buffers");
   if (!document.bin.empty()) root["buffers"] = {{{"byteLength", document.bin.size()}}};
   if (root["bufferViews"].empty()) root.erase("bufferViews");
+  if (document.bin.empty() && root.contains("bufferViews")) {
+    throw Refusal{"it has buffer views but all of its buffers are empty"};
+  }
   document.json = root.dump(-1, ' ', false, Json::error_handler_t::replace);
   return document;
-}
-
-void AppendWord(std::vector<std::uint8_t>& out, std::size_t value) {
-  for (int i = 0; i < 4; ++i) out.push_back(static_cast<std::uint8_t>(value >> (8 * i) & 0xFFu));
 }
 
 }  // namespace
@@ -398,27 +289,6 @@ Result<GltfDocument> OpenGltf(std::span<const std::uint8_t> bytes, std::string_v
   } catch (const std::bad_alloc&) {
     return Error{prefix + "it needs more memory than there is"};
   }
-}
-
-std::vector<std::uint8_t> PackGlb(std::string_view json, std::span<const std::uint8_t> bin) {
-  const std::size_t json_size = (json.size() + 3) / 4 * 4;
-  const std::size_t bin_size = (bin.size() + 3) / 4 * 4;
-  std::vector<std::uint8_t> out;
-  out.reserve(28 + json_size + bin_size);
-  AppendWord(out, kGlbMagic);
-  AppendWord(out, 2);
-  AppendWord(out, 20 + json_size + (bin.empty() ? 0 : 8 + bin_size));
-  AppendWord(out, json_size);
-  AppendWord(out, kJsonChunk);
-  out.insert(out.end(), json.begin(), json.end());
-  out.resize(20 + json_size, ' ');
-  if (!bin.empty()) {
-    AppendWord(out, bin_size);
-    AppendWord(out, kBinChunk);
-    out.insert(out.end(), bin.begin(), bin.end());
-    out.resize(28 + json_size + bin_size, 0);
-  }
-  return out;
 }
 
 }  // namespace ego

@@ -29,7 +29,4 @@ struct GltfDocument {
 Result<GltfDocument> OpenGltf(std::span<const std::uint8_t> bytes, std::string_view name,
                               const std::optional<std::filesystem::path>& folder);
 
-/// One GLB from JSON text and binary buffer (glTF 2.0, section 4.4).
-std::vector<std::uint8_t> PackGlb(std::string_view json, std::span<const std::uint8_t> bin);
-
 }  // namespace ego

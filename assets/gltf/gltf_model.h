@@ -17,8 +17,8 @@ struct DeleteModel {
 };
 using ModelPtr = std::unique_ptr<tinygltf::Model, DeleteModel>;
 
-/// Parses a document with tinygltf. Touches no file. Images that cannot be decoded, or are larger
-/// than 64 megapixels, come out empty. Error: the sentence of the parser, with the file's name.
+/// Parses a document with tinygltf. Touches no file. Images hold the bytes of their file, not
+/// decoded. Error: the sentence of the parser, with the file's name.
 Result<ModelPtr> ParseModel(const GltfDocument& document);
 
 }  // namespace ego

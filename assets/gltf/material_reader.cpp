@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <cstring>
+#include <vector>
 
 #include <tiny_gltf.h>
 
+#include "assets/gltf/image_decoder.h"
 #include "assets/gltf/scene_reader.h"
 
 namespace ego {
@@ -14,38 +15,57 @@ bool InRange(int index, std::size_t size) {
   return index >= 0 && static_cast<std::size_t>(index) < size;
 }
 
-/// Image of a texture, -1 when it has none that can be decoded.
-int ImageOf(const tinygltf::Model& model, int texture, Character& character) {
-  if (!InRange(texture, model.textures.size())) return -1;
-  const int source = model.textures[At(texture)].source;
-  if (InRange(source, character.images.size()) && character.images[At(source)].width > 0) {
-    return source;
+/// Decodes the images that are drawn, each once.
+class Textures {
+ public:
+  Textures(const tinygltf::Model& model, Character& character)
+      : model_(model), character_(character), tried_(model.images.size(), false) {
+    character_.images.resize(model.images.size());
   }
-  character.notes.push_back("texture " + std::to_string(texture) +
-                            " is no PNG or JPEG that can be decoded (WebP and KTX are not): its "
-                            "material is drawn with its base colour");
-  return -1;
-}
 
-Image Converted(const tinygltf::Image& source) {
-  Image image;
-  if (source.width <= 0 || source.height <= 0 || source.component != 4) return image;
-  const std::size_t values =
-      static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height) * 4;
-  const std::size_t bytes = source.bits == 16 ? 2 : 1;
-  if (source.image.size() < values * bytes) return image;
-  image.width = source.width;
-  image.height = source.height;
-  image.rgba.resize(values);
-  // Of 16-bit samples the high byte (little-endian) is enough to draw.
-  for (std::size_t i = 0; i < values; ++i) image.rgba[i] = source.image[i * bytes + bytes - 1];
-  return image;
-}
+  /// Image of a texture, -1 when it has none that can be decoded.
+  int ImageOf(int texture) {
+    if (!InRange(texture, model_.textures.size())) return -1;
+    const tinygltf::Texture& source = model_.textures[At(texture)];
+    if (const auto webp = source.extensions.find("EXT_texture_webp");
+        webp != source.extensions.end()) {
+      const tinygltf::Value& index = webp->second.Get("source");
+      if (index.IsInt() && Decode(index.GetNumberAsInt())) return index.GetNumberAsInt();
+    }
+    if (Decode(source.source)) return source.source;
+    character_.notes.push_back("texture " + std::to_string(texture) +
+                               " is no PNG, JPEG or WebP that can be decoded: its material is "
+                               "drawn with its base colour");
+    return -1;
+  }
+
+ private:
+  /// Pixels of all images of a character together.
+  static constexpr std::size_t kMaxPixels = std::size_t{1} << 27;
+
+  bool Decode(int index) {
+    if (!InRange(index, character_.images.size())) return false;
+    Image& image = character_.images[At(index)];
+    if (!tried_[At(index)]) {
+      tried_[At(index)] = true;
+      if (auto decoded = DecodeImage(model_.images[At(index)].image, left_)) {
+        left_ -= decoded->rgba.size() / 4;
+        image = *std::move(decoded);
+      }
+    }
+    return image.width > 0;
+  }
+
+  const tinygltf::Model& model_;
+  Character& character_;
+  std::vector<bool> tried_;
+  std::size_t left_ = kMaxPixels;
+};
 
 }  // namespace
 
 Result<void> ReadMaterials(const tinygltf::Model& model, Character& character) {
-  for (const tinygltf::Image& image : model.images) character.images.push_back(Converted(image));
+  Textures textures(model, character);
   for (const tinygltf::Material& source : model.materials) {
     Material material;
     material.name = source.name;
@@ -64,7 +84,7 @@ Result<void> ReadMaterials(const tinygltf::Model& model, Character& character) {
       const tinygltf::Value& index = glossy->second.Get("diffuseTexture").Get("index");
       if (index.IsInt()) texture = index.GetNumberAsInt();
     }
-    if (texture >= 0) material.base_color_image = ImageOf(model, texture, character);
+    if (texture >= 0) material.base_color_image = textures.ImageOf(texture);
     material.double_sided = source.doubleSided;
     material.alpha_mask = source.alphaMode == "MASK";
     material.alpha_cutoff = static_cast<float>(source.alphaCutoff);

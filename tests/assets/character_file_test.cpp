@@ -13,118 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "assets/gltf/gltf_document.h"
+#include "tests/support/sample_gltf.h"
 
 namespace ego {
 namespace {
 
 using Json = nlohmann::json;
 using J = HumanoidJoint;
-
-/// A small humanoid of 15 joints with one square of skin on every joint, as JSON and binary, for
-/// each test to bend in its own way.
-struct Sample {
-  Json root;
-  std::vector<std::uint8_t> bin;
-
-  std::size_t View(const void* data, std::size_t bytes) {
-    bin.resize((bin.size() + 3) / 4 * 4);
-    const std::size_t at = bin.size();
-    bin.resize(at + bytes);
-    std::memcpy(bin.data() + at, data, bytes);
-    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", bytes}});
-    return root["bufferViews"].size() - 1;
-  }
-  template <class T>
-  std::size_t Accessor(const std::vector<T>& data, int component, const char* type,
-                       std::size_t width) {
-    const std::size_t view = View(data.data(), data.size() * sizeof(T));
-    root["accessors"].push_back({{"bufferView", view},
-                                 {"componentType", component},
-                                 {"count", data.size() / width},
-                                 {"type", type}});
-    return root["accessors"].size() - 1;
-  }
-  Json& Attribute(const char* name) {
-    return root["meshes"][0]["primitives"][0]["attributes"][name];
-  }
-  Json& AccessorOf(const char* name) {
-    return root["accessors"][Attribute(name).get<std::size_t>()];
-  }
-  std::vector<std::uint8_t> Glb() {
-    root["buffers"] = {{{"byteLength", bin.size()}}};
-    return PackGlb(root.dump(), bin);
-  }
-};
-
-struct Bone {
-  const char* name;
-  int parent;
-  Vec3 at;
-};
-
-const std::vector<Bone>& Bones() {
-  static const std::vector<Bone> bones = {
-      {"Hips", -1, {0, 1, 0}},          {"Spine", 0, {0, 1.2, 0}},
-      {"Head", 1, {0, 1.6, 0}},         {"LeftArm", 1, {.2, 1.4, 0}},
-      {"LeftForeArm", 3, {.5, 1.4, 0}}, {"LeftHand", 4, {.75, 1.4, 0}},
-      {"RightArm", 1, {-.2, 1.4, 0}},   {"RightForeArm", 6, {-.5, 1.4, 0}},
-      {"RightHand", 7, {-.75, 1.4, 0}}, {"LeftUpLeg", 0, {.1, .95, 0}},
-      {"LeftLeg", 9, {.1, .5, 0}},      {"LeftFoot", 10, {.1, .1, 0}},
-      {"RightUpLeg", 0, {-.1, .95, 0}}, {"RightLeg", 12, {-.1, .5, 0}},
-      {"RightFoot", 13, {-.1, .1, 0}}};
-  return bones;
-}
-
-Sample MakeSample(double unit = 1.0) {
-  Sample s;
-  s.root["asset"] = {{"version", "2.0"}};
-  s.root["scenes"] = {{{"nodes", {0, 15}}}};
-  std::vector<float> bind;
-  std::vector<float> positions;
-  std::vector<std::uint8_t> joints;
-  std::vector<float> weights;
-  std::vector<std::uint16_t> indices;
-  for (std::size_t b = 0; b < Bones().size(); ++b) {
-    const Bone& bone = Bones()[b];
-    const Vec3 from =
-        bone.parent < 0 ? Vec3(0.0) : Bones()[static_cast<std::size_t>(bone.parent)].at;
-    const Vec3 t = unit * (bone.at - from);
-    s.root["nodes"].push_back({{"name", bone.name}, {"translation", {t.x, t.y, t.z}}});
-    if (bone.parent >= 0) {
-      s.root["nodes"][static_cast<std::size_t>(bone.parent)]["children"].push_back(b);
-    }
-    for (int c = 0; c < 16; ++c) bind.push_back(c % 5 == 0 ? 1.0f : 0.0f);
-    for (int c = 0; c < 3; ++c) {
-      bind[b * 16 + 12 + static_cast<std::size_t>(c)] = static_cast<float>(-unit * bone.at[c]);
-    }
-    for (int corner = 0; corner < 4; ++corner) {
-      positions.push_back(static_cast<float>(unit * (bone.at.x + (corner % 2 == 0 ? -.02 : .02))));
-      positions.push_back(static_cast<float>(unit * (bone.at.y + (corner < 2 ? -.02 : .02))));
-      positions.push_back(static_cast<float>(unit * bone.at.z));
-      joints.insert(joints.end(), {static_cast<std::uint8_t>(b), 0, 0, 0});
-      weights.insert(weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
-    }
-    const auto first = static_cast<std::uint16_t>(4 * b);
-    for (const int corner : {0, 1, 2, 2, 1, 3}) {
-      indices.push_back(static_cast<std::uint16_t>(first + corner));
-    }
-  }
-  s.root["nodes"].push_back({{"name", "Skin"}, {"mesh", 0}, {"skin", 0}});
-  std::vector<int> all;
-  for (int b = 0; b < 15; ++b) all.push_back(b);
-  s.root["skins"] = {
-      {{"joints", all}, {"inverseBindMatrices", s.Accessor(bind, 5126, "MAT4", 16)}}};
-  Json attributes;
-  attributes["POSITION"] = s.Accessor(positions, 5126, "VEC3", 3);
-  attributes["JOINTS_0"] = s.Accessor(joints, 5121, "VEC4", 4);
-  attributes["WEIGHTS_0"] = s.Accessor(weights, 5126, "VEC4", 4);
-  s.root["meshes"] = {
-      {{"name", "Skin"},
-       {"primitives",
-        {{{"attributes", attributes}, {"indices", s.Accessor(indices, 5123, "SCALAR", 1)}}}}}};
-  return s;
-}
+using test::MakeSample;
+using test::Sample;
 
 Result<Character> Parse(Sample sample) { return ParseCharacter(sample.Glb(), "sample.glb"); }
 
@@ -482,11 +379,11 @@ TEST(WriteRetargeted, RefusesNothingToWriteAndChangedSources) {
   auto character = Parse(MakeSample());
   ASSERT_TRUE(character);
   const auto path = std::filesystem::path(testing::TempDir()) / "ego_refused.glb";
-  EXPECT_FALSE(WriteRetargeted(path, *character, {}, 30.0));
+  EXPECT_FALSE(WriteRetargeted(path, *character, {}, 30.0, "take"));
   const std::vector<Pose> poses{CanonicalPose(character->rig.skeleton)};
-  EXPECT_FALSE(WriteRetargeted(path, *character, poses, 0.0));
+  EXPECT_FALSE(WriteRetargeted(path, *character, poses, 0.0, "take"));
   character->source_path = "/nowhere/absent.glb";
-  const auto written = WriteRetargeted(path, *character, poses, 30.0);
+  const auto written = WriteRetargeted(path, *character, poses, 30.0, "take");
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().find("absent.glb"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(path));

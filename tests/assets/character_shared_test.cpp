@@ -184,7 +184,7 @@ TEST_P(SharedCharacter, ExportedAnimationPlaysThePoses) {
 
   const std::filesystem::path out = std::filesystem::path(testing::TempDir()) /
                                     (std::string("export_") + GetParam().file + ".glb");
-  const auto written = WriteRetargeted(out, *character, poses, 30.0);
+  const auto written = WriteRetargeted(out, *character, poses, 30.0, "take");
   ASSERT_TRUE(written) << written.error();
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
@@ -195,6 +195,7 @@ TEST_P(SharedCharacter, ExportedAnimationPlaysThePoses) {
   std::string warning;
   ASSERT_TRUE(loader.LoadBinaryFromFile(&model, &error, &warning, out.string())) << error;
   ASSERT_EQ(model.animations.size(), 1u);
+  EXPECT_EQ(model.animations[0].name, "take");
 
   // The nodes of the file by name; names are unique enough for humanoid joints in one file.
   const double scale = CanonicalPositions(skeleton)[Index(J::kHead)].y;
