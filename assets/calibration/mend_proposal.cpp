@@ -36,7 +36,16 @@ void ReconcilePair(ProposalDraft& draft, CalibrationPoint& left, CalibrationPoin
   const Vec3 r = draft.probe.PositionOf(right.place);
   const double apart = glm::distance(l, mirrored(r));
   const double height = draft.template_body.height;
-  if (apart < 0.01 * height) return;
+  if (apart < 0.01 * height) {
+    // Each bears out the other.
+    for (auto* point : {&left, &right}) {
+      const double other = point == &left ? right.confidence : left.confidence;
+      if (0.75 * other <= point->confidence) continue;
+      point->confidence = 0.75 * other;
+      if (point->confidence >= kDoubtBelow) point->state = PickState::kProposed;
+    }
+    return;
+  }
   const auto follow = [&](CalibrationPoint& weak, const CalibrationPoint& strong, const Vec3& from,
                           SkinRegion region) {
     const auto hit = draft.probe.Nearest(region, mirrored(from));

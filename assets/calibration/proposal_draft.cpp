@@ -41,7 +41,12 @@ void ProposalDraft::Put(CalibrationPoint& point, const SkinHit& hit, double conf
 
 void ProposalDraft::PutNearest(CalibrationPoint& point, SkinRegion region, const Vec3& wanted,
                                std::string reason) const {
+  // What belongs in the middle stays there: by turns the nearest skin and the middle plane.
+  const bool in_middle = std::abs(wanted.x - middle_x) < 1e-6 * template_body.height;
   std::optional<SkinHit> hit = probe.Nearest(region, wanted);
+  for (int round = 0; hit && in_middle && round < 12; ++round) {
+    hit = probe.Nearest(region, {middle_x, hit->position_ms.y, hit->position_ms.z});
+  }
   if (hit) {
     Put(point, *hit, 0.3, std::move(reason));
     return;

@@ -122,9 +122,10 @@ void HeadProposer::FindCrown() {
 
 /// The chin: of the skin in the middle below the face, the most forward and downward.
 void HeadProposer::FindChin() {
-  const double low = std::min(draft_.probe.Joint(J::kHead).y, centre_.y - 1.5 * size_);
+  const double joint = draft_.probe.Joint(J::kHead).y;
   const double half = crown_.y - centre_.y;
-  const double bottom = std::max(low - 0.5 * size_, centre_.y - 2.0 * half);
+  // The joint sits between chin and neck, on some rigs as low as the shoulders.
+  const double bottom = joint - 0.3 * (crown_.y - joint);
   constexpr int kSteps = 80;
   double best = -1e300;
   std::optional<SkinHit> found;
@@ -156,6 +157,7 @@ void HeadProposer::FindNose() {
   const double forehead_z = draft_.At(S::kForehead).z;
   const double chin_z = chin_.z;
   double best = -1e300;
+  double protrusion = 0.0;
   std::optional<SkinHit> found;
   for (int i = 0; i < kSteps; ++i) {
     const double share = 0.16 + 0.40 * (i + 0.5) / kSteps;
@@ -165,9 +167,10 @@ void HeadProposer::FindNose() {
     const double line = glm::mix(chin_z, forehead_z, share / kForeheadShare);
     // A face without a nose has a flat score, which its usual height then decides.
     const double away = share - kNoseShare;
-    const double score = hit->position_ms.z - line - 0.5 * Height() * away * away;
+    const double score = hit->position_ms.z - 0.4 * line - 0.5 * Height() * away * away;
     if (score > best) {
       best = score;
+      protrusion = hit->position_ms.z - line;
       found = hit;
     }
   }
@@ -176,7 +179,7 @@ void HeadProposer::FindNose() {
     Put(S::kNoseTip, {centre_.x, Y(kNoseShare), centre_.z}, kForward, 0.5);
     return;
   }
-  const bool stands_out = best > 0.03 * Height();
+  const bool stands_out = protrusion > 0.03 * Height();
   ProposalDraft::Put(nose, *found, stands_out ? 0.9 : 0.6,
                      stands_out ? "" : "no nose stands out of the face");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,23 +43,52 @@ void ProposeSegment(ProposalDraft& draft, LimbSegment segment) {
   const bool left = IsLeft(LimbOf(segment));
   if (left) side = -side;
 
+  const double usual = draft.template_body.surface.limb_radius[Index(segment)];
+  // Of several layers (a leg in a boot, a leg under a skirt) the most usual one.
+  const auto spoke = [&](const Vec3& origin, const Vec3& direction) -> std::optional<SkinHit> {
+    const std::vector<SkinHit> layers =
+        draft.probe.Layers(RegionOf(segment), origin, direction, 0.35 * draft.Gap());
+    const auto oddness = [&](const SkinHit& hit) {
+      return std::abs(std::log(std::max(hit.distance, 1e-3 * usual) / usual));
+    };
+    const auto best = std::min_element(
+        layers.begin(), layers.end(),
+        [&](const SkinHit& a, const SkinHit& b) { return oddness(a) < oddness(b); });
+    if (best == layers.end()) return std::nullopt;
+    // Beyond the body's middle it is the other leg's cloth, or the trunk.
+    const bool crosses =
+        left ? best->position_ms.x < draft.middle_x : best->position_ms.x > draft.middle_x;
+    if (crosses) return std::nullopt;
+    return *best;
+  };
   std::vector<Dot> dots;
   int lost = 0;
   for (const double share : kRings) {
-    const Vec3 origin = start + share * (end - start);
-    for (int k = 0; k < kSpokes; ++k) {
-      const double angle = 2.0 * kPi * k / kSpokes;
-      const Vec3 direction = std::cos(angle) * forward + std::sin(angle) * side;
-      const auto hit =
-          draft.probe.Outward(RegionOf(segment), origin, direction, 0.35 * draft.Gap());
-      // Beyond the body's middle it is the other leg's cloth, or the trunk.
-      const bool crosses =
-          hit && (left ? hit->position_ms.x < draft.middle_x : hit->position_ms.x > draft.middle_x);
-      if (!hit || crosses) {
-        ++lost;
-        continue;
+    const Vec3 on_bone = start + share * (end - start);
+    // Bones often run along one side of the flesh: the ring is cast from the flesh's middle.
+    Vec3 origin = on_bone;
+    for (int round = 0; round < 3; ++round) {
+      Vec3 sum{0.0};
+      int count = 0;
+      std::vector<Dot> ring;
+      for (int k = 0; k < kSpokes; ++k) {
+        const double angle = 2.0 * kPi * k / kSpokes;
+        const auto hit = spoke(origin, std::cos(angle) * forward + std::sin(angle) * side);
+        if (!hit) continue;
+        sum += hit->position_ms;
+        ++count;
+        ring.push_back({*hit, glm::distance(hit->position_ms, on_bone)});
       }
-      dots.push_back({*hit, hit->distance});
+      if (round == 2 || count < 3) {
+        lost += kSpokes - count;
+        dots.insert(dots.end(), ring.begin(), ring.end());
+        break;
+      }
+      Vec3 shift = sum / static_cast<double>(count) - on_bone;
+      shift -= glm::dot(shift, axis) * axis;
+      const double reach = glm::length(shift);
+      if (reach > usual) shift *= usual / reach;
+      origin = on_bone + shift;
     }
   }
   const int all = static_cast<int>(kRings.size()) * kSpokes;
@@ -74,7 +104,7 @@ void ProposeSegment(ProposalDraft& draft, LimbSegment segment) {
   SegmentCalibration& target = draft.calibration.At(segment);
   double spread = 0.0;
   for (const Dot& dot : dots) {
-    if (dot.radius > 1.7 * median || dot.radius < 0.4 * median) {
+    if (dot.radius > 2.2 * median) {
       ++lost;
       continue;
     }
@@ -86,9 +116,8 @@ void ProposeSegment(ProposalDraft& draft, LimbSegment segment) {
   spread /= static_cast<double>(target.dots.size()) * median;
   target.confidence = std::clamp(0.95 - 0.8 * lost / all - 0.5 * spread, 0.05, 1.0);
   if (lost > all / 3) target.reason = "much of the ring around the bone is open or another piece";
-  const double usual = draft.template_body.surface.limb_radius[Index(segment)];
   if (median > 2.5 * usual || median < 0.35 * usual) {
-    target.confidence *= 0.6;
+    target.confidence *= 0.75;
     target.reason = median > usual ? "very thick for a bone of this length: perhaps cloth"
                                    : "very thin for a bone of this length";
   }

@@ -77,15 +77,23 @@ Section TrunkProposer::SectionAt(double y, SkinRegion region) const {
 
 void TrunkProposer::Cast(S point, SkinRegion region, const Vec3& origin, const Vec3& direction) {
   double agreement = 0.0;
-  const auto hit = draft_.probe.OutwardBundle(region, origin, direction, draft_.Gap(),
-                                              0.015 * draft_.trunk_length, &agreement);
+  std::optional<SkinHit> hit;
+  double trust = 1.0;
+  // Rigs disagree about which joint carries the sides: try the trunk alone first.
+  for (const SkinRegion r : {region, SkinRegion::kPelvis, SkinRegion::kShoulders}) {
+    const double gap = draft_.Gap() * (r == SkinRegion::kPelvis ? 2.0 : 1.0);
+    hit = draft_.probe.OutwardBundle(r, origin, direction, gap, 0.015 * draft_.trunk_length,
+                                     &agreement);
+    if (hit) break;
+    trust -= 0.1;
+  }
   CalibrationPoint& target = draft_.calibration.At(point);
   if (!hit) {
     draft_.PutNearest(target, region, draft_.TemplateAt(point),
                       "no skin of the trunk lies in the direction where it should be");
     return;
   }
-  double confidence = 0.5 + 0.45 * agreement;
+  double confidence = trust * (0.5 + 0.45 * agreement);
   std::string reason;
   if (agreement < 0.6) reason = "the skin is uneven or open here";
   if (hit->loose_layer) {

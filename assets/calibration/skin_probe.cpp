@@ -45,6 +45,40 @@ constexpr std::array<Mask, kSkinRegionCount> kMasks = {
     Of({J::kRightUpperLeg, J::kRightLowerLeg, J::kRightFoot}),
 };
 
+/// Parts that are rigid on a node of their own: weapons, hats, bags, or a robot's pieces.
+std::vector<bool> RigidParts(const Character& character) {
+  std::vector<int> users(character.palette.size(), 0);
+  std::vector<int> only(character.parts.size(), -1);  // the one entry that carries the part
+  for (std::size_t p = 0; p < character.parts.size(); ++p) {
+    std::vector<bool> seen(character.palette.size(), false);
+    for (const MeshPart::Influences& influences : character.parts[p].influences) {
+      for (std::size_t k = 0; k < MeshPart::kInfluences; ++k) {
+        if (influences.weight[k] > 0.0f) seen[influences.entry[k]] = true;
+      }
+    }
+    int count = 0;
+    for (std::size_t e = 0; e < seen.size(); ++e) {
+      if (!seen[e]) continue;
+      ++count;
+      ++users[e];
+      only[p] = static_cast<int>(e);
+    }
+    if (count != 1) only[p] = -1;
+  }
+  std::vector<bool> rigid(character.parts.size());
+  for (std::size_t p = 0; p < rigid.size(); ++p) {
+    rigid[p] = only[p] >= 0 && users[static_cast<std::size_t>(only[p])] == 1;
+  }
+  return rigid;
+}
+
+/// Regions where what is carried (a sword, a shield) must not be taken for the body.
+constexpr bool LeavesOutCarried(std::size_t region) {
+  const auto r = static_cast<SkinRegion>(region);
+  return r != SkinRegion::kHead && r != SkinRegion::kHeadAndNeck && r != SkinRegion::kTrunk &&
+         r != SkinRegion::kPelvis && r != SkinRegion::kShoulders;
+}
+
 SkinHit FromBvh(const MeshBvh::Hit& hit) {
   return {hit.place, hit.position_ws, hit.normal_ws, hit.distance, false};
 }
@@ -87,7 +121,20 @@ SkinProbe::SkinProbe(const Character& character)
       }
     }
   }
+  const std::vector<bool> rigid = RigidParts(character);
   for (std::size_t r = 0; r < kSkinRegionCount; ++r) {
+    const auto is_rigid = [&](const Face& face) {
+      return rigid[static_cast<std::size_t>(face.part)];
+    };
+    std::vector<Face>& faces = faces_[r];
+    if (LeavesOutCarried(r) && !std::all_of(faces.begin(), faces.end(), is_rigid)) {
+      for (const Face& face : faces) {
+        if (is_rigid(face)) {
+          regions_of[static_cast<std::size_t>(face.part)][face.triangle] &= ~(Mask{1} << r);
+        }
+      }
+      std::erase_if(faces, is_rigid);
+    }
     bvh_[r] = std::make_unique<MeshBvh>(character, mesh_, [&](int part, std::uint32_t triangle) {
       return (regions_of[static_cast<std::size_t>(part)][triangle] >> r & 1u) != 0u;
     });
@@ -99,30 +146,34 @@ const std::vector<SkinProbe::Face>& SkinProbe::Faces(SkinRegion region) const {
   return faces_[static_cast<std::size_t>(region)];
 }
 
-std::optional<SkinHit> SkinProbe::Outward(SkinRegion region, const Vec3& origin_ms,
-                                          const Vec3& direction, double gap) const {
+std::vector<SkinHit> SkinProbe::Layers(SkinRegion region, const Vec3& origin_ms,
+                                       const Vec3& direction, double gap) const {
   const std::vector<MeshBvh::Hit> hits =
       bvh_[static_cast<std::size_t>(region)]->AllHits(origin_ms, direction, kFar);
-  if (hits.empty()) return std::nullopt;
   const auto sign_of = [&](const MeshBvh::Hit& hit) {
     return closed_[static_cast<std::size_t>(hit.place.part)][hit.place.triangle];
   };
-  std::size_t at = 0;
-  bool loose = false;
-  for (std::size_t i = 1; i < hits.size(); ++i) {
-    const double entered =
-        glm::dot(hits[i - 1].normal_ws, direction) * (sign_of(hits[i - 1]) < 0 ? -1.0 : 1.0);
-    const double leaves = glm::dot(hits[i].normal_ws, direction) * sign_of(hits[i]);
-    // Between a way in and a way out of a closed piece there is no gap, only its inside.
-    const bool inside = entered < 0.0 || leaves > 0.0;
-    if (!inside && hits[i].distance - hits[i - 1].distance > gap) {
-      loose = true;
-      break;
+  std::vector<SkinHit> layers;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (i + 1 < hits.size()) {
+      const double entered =
+          glm::dot(hits[i].normal_ws, direction) * (sign_of(hits[i]) < 0 ? -1.0 : 1.0);
+      const double leaves = glm::dot(hits[i + 1].normal_ws, direction) * sign_of(hits[i + 1]);
+      // Between a way in and a way out of a closed piece there is no gap, only its inside.
+      const bool inside = entered < 0.0 || leaves > 0.0;
+      if (inside || hits[i + 1].distance - hits[i].distance <= gap) continue;
     }
-    at = i;
+    layers.push_back(FromBvh(hits[i]));
   }
-  SkinHit hit = FromBvh(hits[at]);
-  hit.loose_layer = loose;
+  return layers;
+}
+
+std::optional<SkinHit> SkinProbe::Outward(SkinRegion region, const Vec3& origin_ms,
+                                          const Vec3& direction, double gap) const {
+  const std::vector<SkinHit> layers = Layers(region, origin_ms, direction, gap);
+  if (layers.empty()) return std::nullopt;
+  SkinHit hit = layers.front();
+  hit.loose_layer = layers.size() > 1;
   return hit;
 }
 

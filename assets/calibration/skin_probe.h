@@ -49,6 +49,11 @@ class SkinProbe {
   std::optional<SkinHit> Outward(SkinRegion region, const Vec3& origin_ms, const Vec3& direction,
                                  double gap) const;
 
+  /// All the layers that Outward chooses from, nearest first: the outside of the first, then of
+  /// what lies beyond a gap over it, and so on.
+  std::vector<SkinHit> Layers(SkinRegion region, const Vec3& origin_ms, const Vec3& direction,
+                              double gap) const;
+
   /// The median, by distance, of a bundle of parallel rays `spread` apart (3 x 3), or nothing when
   /// fewer than half of them meet skin. The hit returned is the one straight ahead where it agrees
   /// with the median, else the one with the median distance. `agreement` in [0, 1].
