@@ -62,8 +62,8 @@ class Union {
 
 }  // namespace
 
-std::vector<std::vector<std::int8_t>> ClosedPieces(const Character& character,
-                                                   const PosedMesh& mesh) {
+std::vector<std::vector<std::int32_t>> ClosedPieces(const Character& character,
+                                                    const PosedMesh& mesh) {
   const std::vector<std::vector<std::uint32_t>> number = Weld(mesh);
   std::size_t vertices = 0;
   for (const auto& part : number) {
@@ -77,13 +77,13 @@ std::vector<std::vector<std::int8_t>> ClosedPieces(const Character& character,
   };
   std::vector<Edge> edges;
   std::vector<double> volume(vertices, 0.0);
-  std::vector<std::vector<std::int8_t>> sign(character.parts.size());
+  std::vector<std::vector<std::int32_t>> piece_of(character.parts.size());
   const auto corner = [&](std::size_t p, std::size_t i) {
     return number[p][character.parts[p].triangles[i]];
   };
   for (std::size_t p = 0; p < character.parts.size(); ++p) {
     const std::size_t count = character.parts[p].triangles.size() / 3;
-    sign[p].assign(count, 0);
+    piece_of[p].assign(count, 0);
     for (std::size_t t = 0; t < count; ++t) {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = corner(p, 3 * t + k);
@@ -105,7 +105,8 @@ std::vector<std::vector<std::int8_t>> ClosedPieces(const Character& character,
   }
   const auto each_triangle = [&](const auto& visit) {
     for (std::size_t p = 0; p < character.parts.size(); ++p) {
-      for (std::size_t t = 0; t < sign[p].size(); ++t) visit(p, t, pieces.Find(corner(p, 3 * t)));
+      for (std::size_t t = 0; t < piece_of[p].size(); ++t)
+        visit(p, t, pieces.Find(corner(p, 3 * t)));
     }
   };
   each_triangle([&](std::size_t p, std::size_t t, std::uint32_t piece) {
@@ -115,9 +116,11 @@ std::vector<std::vector<std::int8_t>> ClosedPieces(const Character& character,
                               glm::cross(position[index[3 * t + 1]], position[index[3 * t + 2]]));
   });
   each_triangle([&](std::size_t p, std::size_t t, std::uint32_t piece) {
-    if (!open[piece]) sign[p][t] = volume[piece] >= 0.0 ? 1 : -1;
+    if (open[piece]) return;
+    const auto id = static_cast<std::int32_t>(piece) + 1;
+    piece_of[p][t] = volume[piece] >= 0.0 ? id : -id;
   });
-  return sign;
+  return piece_of;
 }
 
 }  // namespace ego

@@ -9,10 +9,10 @@
 
 namespace ego {
 
-/// How each triangle, by part and number, belongs to a watertight piece of the mesh: 1 when it
-/// does and its winding faces out of the piece, -1 when it faces in, 0 when the piece is open (a
-/// cape, a skirt, a card of hair). Vertices at one position are one vertex, across parts too.
-std::vector<std::vector<std::int8_t>> ClosedPieces(const Character& character,
-                                                   const PosedMesh& mesh);
+/// To which watertight piece of the mesh each triangle, by part and number, belongs: the piece's
+/// number (from 1), negative when its triangles are wound to face inward, 0 when the piece is open
+/// (a cape, a skirt, a card of hair). Vertices at one position are one vertex, across parts too.
+std::vector<std::vector<std::int32_t>> ClosedPieces(const Character& character,
+                                                    const PosedMesh& mesh);
 
 }  // namespace ego

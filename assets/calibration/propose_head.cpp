@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,35 +52,50 @@ class HeadProposer {
 
  private:
   void FindCentre();
+  void MeasureFace(double face_y);
   void FindCrown();
   void FindChin();
   void FindNose();
   void FindThroat();
-  double Y(double share) const { return chin_.y + share * (crown_.y - chin_.y); }
-  double Height() const { return crown_.y - chin_.y; }
-  std::optional<SkinHit> Cast(const Vec3& origin, const Vec3& direction, double* agreement) const;
+  double Y(double share) const { return chin_.y + share * Height(); }
+  double Height() const { return skull_top_ - chin_.y; }
+  void FindBrim();
+  std::optional<SkinHit> Cast(const Vec3& origin, const Vec3& direction) const {
+    return draft_.probe.Outward(SkinRegion::kHead, origin, direction, 0.25 * size_, reach_);
+  }
+  std::optional<SkinHit> CastBundle(const Vec3& origin, const Vec3& direction,
+                                    double* agreement) const;
   void Put(S point, const Vec3& origin, const Vec3& direction, double trust);
 
   ProposalDraft& draft_;
   Vec3 centre_{0.0};
-  double size_ = 0.0;  // a rough radius
+  double median_y_ = 0.0;  // of the head's skin, ears and hair included
+  double size_ = 0.0;      // a rough radius
   Vec3 crown_{0.0};
+  double skull_top_ = 0.0;  // the crown, or, under a brimmed hat, where it must be
+  double reach_ = 0.0;      // farthest from the middle that a face's skin is believed to be
+  bool brimmed_ = false;    // a hat with a brim covers the head
   Vec3 chin_{0.0};
 };
 
-std::optional<SkinHit> HeadProposer::Cast(const Vec3& origin, const Vec3& direction,
-                                          double* agreement) const {
+std::optional<SkinHit> HeadProposer::CastBundle(const Vec3& origin, const Vec3& direction,
+                                                double* agreement) const {
   return draft_.probe.OutwardBundle(SkinRegion::kHead, origin, direction, 0.25 * size_,
-                                    0.04 * size_, agreement);
+                                    0.04 * size_, agreement, direction.y < 0.9 ? reach_ : 0.0);
 }
 
 void HeadProposer::Put(S point, const Vec3& origin, const Vec3& direction, double trust) {
   double agreement = 0.0;
-  const auto hit = Cast(origin, direction, &agreement);
+  const auto hit = CastBundle(origin, direction, &agreement);
   CalibrationPoint& target = draft_.calibration.At(point);
   if (!hit) {
     draft_.PutNearest(target, SkinRegion::kHead, draft_.TemplateAt(point),
                       "no skin of the head lies in the direction where it should be");
+    return;
+  }
+  if (brimmed_ && hit->distance > reach_ && direction.y < 0.9) {
+    draft_.PutNearest(target, SkinRegion::kHead, origin + 0.6 * reach_ * direction,
+                      "the brim of a hat lies over the skin here");
     return;
   }
   double confidence = trust * (0.55 + 0.4 * agreement);
@@ -98,6 +115,7 @@ void HeadProposer::FindCentre() {
   const double joint_y = draft_.probe.Joint(J::kHead).y;
   centre_ = {draft_.probe.Joint(J::kHead).x, AreaMedian(faces, 1), AreaMedian(faces, 2)};
   centre_.y = std::max(centre_.y, joint_y);
+  median_y_ = centre_.y;
   size_ = 0.0;
   double area = 0.0;
   for (const SkinProbe::Face& face : faces) {
@@ -107,17 +125,88 @@ void HeadProposer::FindCentre() {
     area += face.area;
   }
   size_ /= area;
-  double agreement = 0.0;
-  const auto front = Cast(centre_, kForward, &agreement);
-  const auto back = Cast(centre_, kBackward, &agreement);
+}
+
+/// The head's middle between front and back at the height of the face, and how far skin may be
+/// from it: most of what lies around it, and something for nose and hair.
+void HeadProposer::MeasureFace(double face_y) {
+  std::vector<double> around;
+  constexpr int kSpokes = 12;
+  for (const double dy : {-0.2, 0.0, 0.2}) {
+    for (int k = 0; k < kSpokes; ++k) {
+      const double angle = 2.0 * kPi * k / kSpokes;
+      const auto layers =
+          draft_.probe.Layers(SkinRegion::kHead, {centre_.x, face_y + dy * size_, centre_.z},
+                              {std::sin(angle), 0.0, std::cos(angle)}, 0.25 * size_);
+      if (!layers.empty()) around.push_back(layers.back().distance);
+    }
+  }
+  if (around.size() < 6) return;
+  std::sort(around.begin(), around.end());
+  reach_ = 1.6 * around[around.size() / 2];
+  const Vec3 origin{centre_.x, face_y, centre_.z};
+  const auto front = Cast(origin, kForward);
+  const auto back = Cast(origin, kBackward);
   if (front && back) centre_.z += 0.5 * (front->distance - back->distance);
 }
 
 void HeadProposer::FindCrown() {
-  CalibrationPoint& crown = draft_.calibration.At(S::kCrown);
-  Put(S::kCrown, centre_, kUp, 1.0);
-  crown_ = draft_.probe.PositionOf(crown.place);
-  if (crown_.y <= centre_.y) crown_.y = centre_.y + size_;
+  const auto look_up = [&] {
+    Put(S::kCrown, centre_, kUp, 1.0);
+    crown_ = draft_.probe.PositionOf(draft_.calibration.At(S::kCrown).place);
+    if (crown_.y <= centre_.y) crown_.y = centre_.y + size_;
+  };
+  look_up();
+  // Ears, hair and collars pull the median up or down; joint and crown bound the skull itself.
+  const double joint = draft_.probe.Joint(J::kHead).y;
+  centre_.y = 0.5 * (joint + crown_.y);
+  for (int round = 0; round < 2; ++round) MeasureFace(glm::mix(joint, crown_.y, 0.3));
+  look_up();
+}
+
+/// A hat with a brim: the head is much deeper and wider at one height than at the face below it,
+/// and narrow again farther up. The crown then belongs to the hat; the face is measured by its own
+/// depth.
+void HeadProposer::FindBrim() {
+  skull_top_ = crown_.y;
+  const double joint = draft_.probe.Joint(J::kHead).y;
+  constexpr int kSteps = 40;
+  constexpr std::size_t kFaceFrom = 4;
+  constexpr std::size_t kFaceTo = 14;
+  std::array<double, kSteps> depth{};
+  std::array<double, kSteps> width{};
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / kSteps;
+    const Vec3 origin{centre_.x, glm::mix(joint, crown_.y, share), centre_.z};
+    const auto extent = [&](const Vec3& direction) {
+      double sum = 0.0;
+      for (const double sign : {1.0, -1.0}) {
+        const auto layers =
+            draft_.probe.Layers(SkinRegion::kHead, origin, sign * direction, 0.25 * size_);
+        if (!layers.empty()) sum += layers.back().distance;
+      }
+      return sum;
+    };
+    depth[i] = extent(kForward);
+    width[i] = extent({1.0, 0.0, 0.0});
+  }
+  const auto usual = [&](std::array<double, kSteps> extents) {
+    const auto middle = extents.begin() + (kFaceFrom + kFaceTo) / 2;
+    std::nth_element(extents.begin() + kFaceFrom, middle, extents.begin() + kFaceTo);
+    return *middle;
+  };
+  const double usual_depth = usual(depth);
+  const double usual_width = usual(width);
+  // From the top down, so that what lies above is known.
+  double above = depth[kSteps - 1];
+  for (std::size_t i = kSteps - 1; i >= kFaceTo; --i) {
+    above = std::min(above, depth[i]);
+    const bool brim = depth[i] > 1.4 * usual_depth && width[i] > 1.4 * usual_width;
+    if (!brim || above > 0.6 * depth[i]) continue;
+    brimmed_ = true;
+    skull_top_ = std::min(crown_.y, joint + 1.1 * usual_depth);
+    return;
+  }
 }
 
 /// The chin: of the skin in the middle below the face, the most forward and downward.
@@ -125,15 +214,19 @@ void HeadProposer::FindChin() {
   const double joint = draft_.probe.Joint(J::kHead).y;
   const double half = crown_.y - centre_.y;
   // The joint sits between chin and neck, on some rigs as low as the shoulders.
-  const double bottom = joint - 0.3 * (crown_.y - joint);
+  const double bottom =
+      std::max(joint - 0.3 * (crown_.y - joint), median_y_ - 2.0 * (crown_.y - median_y_));
   constexpr int kSteps = 80;
   double best = -1e300;
+  double foremost = -1e300;
   std::optional<SkinHit> found;
   for (int i = 0; i < kSteps; ++i) {
-    const double y = bottom + (centre_.y - bottom) * (i + 0.5) / kSteps;
-    const auto hit =
-        draft_.probe.Outward(SkinRegion::kHead, {centre_.x, y, centre_.z}, kForward, 0.25 * size_);
-    if (!hit) continue;
+    const double y = glm::mix(centre_.y, bottom, (i + 0.5) / kSteps);
+    const auto hit = Cast({centre_.x, y, centre_.z}, kForward);
+    if (!hit || (brimmed_ && hit->distance > reach_)) continue;
+    // Far behind the face is the neck; what comes forward again below is a collar or the chest.
+    foremost = std::max(foremost, hit->position_ms.z);
+    if (hit->position_ms.z < foremost - 0.35 * (crown_.y - joint)) break;
     const double score = hit->position_ms.z - hit->position_ms.y;
     if (score > best) {
       best = score;
@@ -163,7 +256,7 @@ void HeadProposer::FindNose() {
     const double share = 0.16 + 0.40 * (i + 0.5) / kSteps;
     const auto hit = draft_.probe.Outward(SkinRegion::kHead, {centre_.x, Y(share), centre_.z},
                                           kForward, 0.25 * size_);
-    if (!hit) continue;
+    if (!hit || (brimmed_ && hit->distance > reach_)) continue;
     const double line = glm::mix(chin_z, forehead_z, share / kForeheadShare);
     // A face without a nose has a flat score, which its usual height then decides.
     const double away = share - kNoseShare;
@@ -212,6 +305,7 @@ void HeadProposer::Run() {
   }
   FindCentre();
   FindCrown();
+  FindBrim();
   FindChin();
   const Vec3 axis{centre_.x, 0.0, centre_.z};
   const auto at = [&](double share) { return axis + Vec3{0.0, Y(share), 0.0}; };

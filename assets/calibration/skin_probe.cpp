@@ -150,18 +150,32 @@ std::vector<SkinHit> SkinProbe::Layers(SkinRegion region, const Vec3& origin_ms,
                                        const Vec3& direction, double gap) const {
   const std::vector<MeshBvh::Hit> hits =
       bvh_[static_cast<std::size_t>(region)]->AllHits(origin_ms, direction, kFar);
-  const auto sign_of = [&](const MeshBvh::Hit& hit) {
+  const auto piece_of = [&](const MeshBvh::Hit& hit) {
     return closed_[static_cast<std::size_t>(hit.place.part)][hit.place.triangle];
+  };
+  // 1 for a way out of the skin, -1 for a way in, by the piece's true outside.
+  const auto way = [&](const MeshBvh::Hit& hit) {
+    const double along = glm::dot(hit.normal_ws, direction);
+    return (along > 0.0) == (piece_of(hit) >= 0) ? 1 : -1;
+  };
+  // After hit i the ray is inside when a closed piece is left later that was not entered in
+  // between, or when hit i itself leads in.
+  const auto inside_after = [&](std::size_t i) {
+    if (way(hits[i]) < 0) return true;
+    for (std::size_t j = i + 1; j < hits.size(); ++j) {
+      const std::int32_t piece = piece_of(hits[j]);
+      if (piece == 0 || way(hits[j]) < 0) continue;
+      bool entered = false;
+      for (std::size_t k = i + 1; k < j && !entered; ++k) entered = piece_of(hits[k]) == piece;
+      if (!entered) return true;
+    }
+    return false;
   };
   std::vector<SkinHit> layers;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (i + 1 < hits.size()) {
-      const double entered =
-          glm::dot(hits[i].normal_ws, direction) * (sign_of(hits[i]) < 0 ? -1.0 : 1.0);
-      const double leaves = glm::dot(hits[i + 1].normal_ws, direction) * sign_of(hits[i + 1]);
-      // Between a way in and a way out of a closed piece there is no gap, only its inside.
-      const bool inside = entered < 0.0 || leaves > 0.0;
-      if (inside || hits[i + 1].distance - hits[i].distance <= gap) continue;
+    if (i + 1 < hits.size() &&
+        (hits[i + 1].distance - hits[i].distance <= gap || inside_after(i))) {
+      continue;
     }
     layers.push_back(FromBvh(hits[i]));
   }
@@ -169,17 +183,19 @@ std::vector<SkinHit> SkinProbe::Layers(SkinRegion region, const Vec3& origin_ms,
 }
 
 std::optional<SkinHit> SkinProbe::Outward(SkinRegion region, const Vec3& origin_ms,
-                                          const Vec3& direction, double gap) const {
+                                          const Vec3& direction, double gap, double reach) const {
   const std::vector<SkinHit> layers = Layers(region, origin_ms, direction, gap);
   if (layers.empty()) return std::nullopt;
-  SkinHit hit = layers.front();
-  hit.loose_layer = layers.size() > 1;
+  std::size_t at = 0;
+  while (at + 1 < layers.size() && layers[at + 1].distance <= reach) ++at;
+  SkinHit hit = layers[at];
+  hit.loose_layer = at + 1 < layers.size();
   return hit;
 }
 
 std::optional<SkinHit> SkinProbe::OutwardBundle(SkinRegion region, const Vec3& origin_ms,
                                                 const Vec3& direction, double gap, double spread,
-                                                double* agreement) const {
+                                                double* agreement, double reach) const {
   // Rays above and below, and to both sides alike, so that a mirrored mesh answers mirrored.
   const Vec3 side =
       glm::normalize(std::abs(direction.y) < 0.9 ? glm::cross(direction, kUp)
@@ -190,7 +206,7 @@ std::optional<SkinHit> SkinProbe::OutwardBundle(SkinRegion region, const Vec3& o
   for (const double u : {-1.0, 0.0, 1.0}) {
     for (const double s : {-1.0, 0.0, 1.0}) {
       const std::optional<SkinHit> hit =
-          Outward(region, origin_ms + spread * (u * up + s * side), direction, gap);
+          Outward(region, origin_ms + spread * (u * up + s * side), direction, gap, reach);
       if (hit) hits.push_back(*hit);
       if (u == 0.0 && s == 0.0) ahead = hit;
     }

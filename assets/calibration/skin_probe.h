@@ -45,9 +45,10 @@ class SkinProbe {
   explicit SkinProbe(const Character& character);
 
   /// From inside the body outward: the last of the layers that lie on each other. A layer farther
-  /// than `gap` from the one below it (a cape, a skirt, a hat's tip) is taken for loose and left.
+  /// than `gap` from the one below it (a cape, a skirt, a hat's tip) is taken for loose and left,
+  /// unless it is at most `reach` from the origin: heads are often hollow below the hair.
   std::optional<SkinHit> Outward(SkinRegion region, const Vec3& origin_ms, const Vec3& direction,
-                                 double gap) const;
+                                 double gap, double reach = 0.0) const;
 
   /// All the layers that Outward chooses from, nearest first: the outside of the first, then of
   /// what lies beyond a gap over it, and so on.
@@ -59,7 +60,7 @@ class SkinProbe {
   /// with the median, else the one with the median distance. `agreement` in [0, 1].
   std::optional<SkinHit> OutwardBundle(SkinRegion region, const Vec3& origin_ms,
                                        const Vec3& direction, double gap, double spread,
-                                       double* agreement) const;
+                                       double* agreement, double reach = 0.0) const;
 
   std::optional<SkinHit> Nearest(SkinRegion region, const Vec3& point_ms) const;
   /// Nearest place of any skin.
@@ -84,7 +85,7 @@ class SkinProbe {
   const Character* character_;
   PosedMesh mesh_;
   std::array<Vec3, kJointCount> joint_;
-  std::vector<std::vector<std::int8_t>> closed_;  // see ClosedPieces
+  std::vector<std::vector<std::int32_t>> closed_;  // see ClosedPieces
   std::array<std::vector<Face>, kSkinRegionCount> faces_;
   std::array<std::unique_ptr<MeshBvh>, kSkinRegionCount> bvh_;
   std::unique_ptr<MeshBvh> all_;
