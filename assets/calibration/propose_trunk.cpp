@@ -79,13 +79,20 @@ void TrunkProposer::Cast(S point, SkinRegion region, const Vec3& origin, const V
   double agreement = 0.0;
   std::optional<SkinHit> hit;
   double trust = 1.0;
-  // Rigs disagree about which joint carries the sides: try the trunk alone first.
-  for (const SkinRegion r : {region, SkinRegion::kPelvis, SkinRegion::kShoulders}) {
-    const double gap = draft_.Gap() * (r == SkinRegion::kPelvis ? 2.0 : 1.0);
-    hit = draft_.probe.OutwardBundle(r, origin, direction, gap, 0.015 * draft_.trunk_length,
-                                     &agreement);
-    if (hit) break;
-    trust -= 0.1;
+  // A wooden doll has nothing between the legs and some heads cover the neck: then the next place
+  // towards the middle of the trunk.
+  const double middle = draft_.hip_height + 0.4 * draft_.trunk_length;
+  const double step = (origin.y < middle ? 0.06 : -0.06) * draft_.trunk_length;
+  const int steps = std::abs(direction.y) < 0.9 ? 4 : 1;
+  for (int i = 0; i < steps && !hit; ++i) {
+    // Rigs disagree about which joint carries the sides: try the trunk alone first.
+    for (const SkinRegion r : {region, SkinRegion::kPelvis, SkinRegion::kShoulders}) {
+      const double gap = draft_.Gap() * (r == SkinRegion::kPelvis ? 2.0 : 1.0);
+      hit = draft_.probe.OutwardBundle(r, origin + Vec3{0.0, i * step, 0.0}, direction, gap,
+                                       0.015 * draft_.trunk_length, &agreement);
+      if (hit) break;
+      trust -= 0.04;
+    }
   }
   CalibrationPoint& target = draft_.calibration.At(point);
   if (!hit) {

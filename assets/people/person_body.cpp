@@ -189,8 +189,16 @@ SampleRay RayOf(const PersonShape& shape, SamplePoint point) {
       return {head(0.385), front};
     case S::kChin:
       return {head(0.10), front};
-    case S::kThroat:
-      return {head(0.16) + Vec3{0.0, 0.0, 0.40 * l}, glm::normalize(Vec3{0.0, -1.0, -0.15})};
+    case S::kThroat: {
+      // Down from inside the jaw; where a thick neck fills the place below, forward out of it.
+      const Vec3 jaw = head(0.16) + Vec3{0.0, 0.0, 0.40 * l};
+      const Vec3 down = glm::normalize(Vec3{0.0, -1.0, -0.15});
+      const double free_below = 0.26 * m.head_height;
+      for (int i = 1; i <= 8; ++i) {
+        if (shape(jaw + free_below * (i / 8.0) * down) > 0.0) return {jaw, down};
+      }
+      return {head(-0.10), front};
+    }
     case S::kLeftEar:
       return {head(0.44) + Vec3{0.0, 0.0, -0.08 * l}, side};
     case S::kLeftCheek:

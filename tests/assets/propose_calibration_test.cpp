@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "assets/calibration/propose_calibration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "assets/gltf/character_file.h"
+#include "assets/people/person.h"
 #include "core/model/avatar_body.h"
 #include "tests/support/capsule_person.h"
+#include "tests/support/shared_data.h"
 
 namespace ego {
 namespace {
@@ -158,6 +164,69 @@ TEST(ProposeCalibration, APersonWithoutHeadOrHandsStillGetsABody) {
   EXPECT_EQ(calibration.hand[0].palm.state, PickState::kDoubtful);
   const Body body = MakeAvatarBody(person, calibration);
   for (const Vec3& p : body.surface.sample_ms) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
+/// Errors against a calibration known exactly, in shares of the height.
+std::vector<double> Errors(const Body& found, const Body& truth) {
+  std::vector<double> errors;
+  const auto add = [&](const Vec3& a, const Vec3& b) {
+    errors.push_back(glm::distance(a, b) / truth.height);
+  };
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    add(found.surface.sample_ms[i], truth.surface.sample_ms[i]);
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    add(found.surface.hand[side].palm_ms, truth.surface.hand[side].palm_ms);
+    add(found.surface.hand[side].fingertip_ms, truth.surface.hand[side].fingertip_ms);
+    add(found.surface.foot[side].heel_ms, truth.surface.foot[side].heel_ms);
+    add(found.surface.foot[side].ball_ms, truth.surface.foot[side].ball_ms);
+    add(found.surface.foot[side].toe_tip_ms, truth.surface.foot[side].toe_tip_ms);
+  }
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    errors.push_back(std::abs(found.surface.limb_radius[s] - truth.surface.limb_radius[s]) /
+                     truth.height);
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+TEST(ProposeCalibration, IsAsGoodOnTheCastAsItsGoalSays) {
+  for (const PersonParameters& parameters : DemoCast()) {
+    const Person person = MakePerson(parameters);
+    const Body found = MakeAvatarBody(person.character, Propose(person.character));
+    const std::vector<double> errors = Errors(found, person.body);
+    EXPECT_LT(errors[errors.size() / 2], 0.010) << parameters.name;
+    EXPECT_LT(errors.back(), 0.04) << parameters.name;
+  }
+}
+
+bool IsAvatar(const std::filesystem::path& path) {
+  return path.extension() == ".glb" || path.extension() == ".vrm";
+}
+
+TEST(ProposeCalibration, EveryRealAvatarGetsAUsableProposal) {
+  EGO_SHARED_DATA_OR_SKIP(path, "avatars");
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (!IsAvatar(entry.path())) continue;
+    const Result<Character> character = ReadCharacter(entry.path());
+    if (!character) continue;  // what the reader refuses is its own tests' matter
+    const AvatarCalibration calibration = Propose(*character);
+    const CalibrationSummary summary = Summarize(calibration);
+    EXPECT_EQ(summary.missing, 0u) << entry.path();
+    EXPECT_LE(summary.doubtful, 8u) << entry.path();
+    const Body body = MakeAvatarBody(*character, calibration);
+    const Body usual = TemplateBodyOf(*character);
+    // No crude triangle is inside out as seen from the middle of its mesh, or close to it.
+    std::size_t folded = 0;
+    for (const SampleTriangle& t : SampleTriangles()) {
+      const auto normal = [&](const Body& b) {
+        const auto p = [&](std::size_t k) { return b.surface.sample_ms[Index(t[k])]; };
+        return glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0)));
+      };
+      if (glm::dot(normal(body), normal(usual)) < -0.2) ++folded;
+    }
+    EXPECT_LE(folded, 4u) << entry.path();
+  }
 }
 
 }  // namespace
