@@ -69,8 +69,7 @@ class HeadProposer {
 
   ProposalDraft& draft_;
   Vec3 centre_{0.0};
-  double median_y_ = 0.0;  // of the head's skin, ears and hair included
-  double size_ = 0.0;      // a rough radius
+  double size_ = 0.0;  // a rough radius
   Vec3 crown_{0.0};
   double skull_top_ = 0.0;  // the crown, or, under a brimmed hat, where it must be
   double reach_ = 0.0;      // farthest from the middle that a face's skin is believed to be
@@ -115,7 +114,6 @@ void HeadProposer::FindCentre() {
   const double joint_y = draft_.probe.Joint(J::kHead).y;
   centre_ = {draft_.probe.Joint(J::kHead).x, AreaMedian(faces, 1), AreaMedian(faces, 2)};
   centre_.y = std::max(centre_.y, joint_y);
-  median_y_ = centre_.y;
   size_ = 0.0;
   double area = 0.0;
   for (const SkinProbe::Face& face : faces) {
@@ -213,9 +211,9 @@ void HeadProposer::FindBrim() {
 void HeadProposer::FindChin() {
   const double joint = draft_.probe.Joint(J::kHead).y;
   const double half = crown_.y - centre_.y;
-  // The joint sits between chin and neck, on some rigs as low as the shoulders.
-  const double bottom =
-      std::max(joint - 0.3 * (crown_.y - joint), median_y_ - 2.0 * (crown_.y - median_y_));
+  // The joint sits between the ears on some rigs and as low as the shoulders on others.
+  const double bottom = std::min(joint - 0.3 * (crown_.y - joint),
+                                 glm::mix(joint, draft_.probe.Joint(J::kNeck).y, 0.8));
   constexpr int kSteps = 80;
   double best = -1e300;
   double foremost = -1e300;
@@ -286,7 +284,7 @@ void HeadProposer::FindThroat() {
       draft_.probe.OutwardBundle(SkinRegion::kHeadAndNeck, {centre_.x, Y(0.16), z},
                                  {0.0, -1.0, 0.0}, 0.1 * size_, 0.04 * size_, &agreement);
   CalibrationPoint& throat = draft_.calibration.At(S::kThroat);
-  if (under && under->position_ms.y > Y(-0.3) && under->normal_ms.y < -0.2) {
+  if (under && under->position_ms.y > Y(-0.2) && under->normal_ms.y < -0.2) {
     ProposalDraft::Put(throat, *under, 0.55 + 0.35 * agreement, "");
     return;
   }
