@@ -38,6 +38,7 @@ struct Arguments {
   double film_rate_hz = 30.0;
   int strip = 0;
   bool crude = false;
+  bool true_sizes = false;
 };
 
 Result<ViewportSize> ParseSize(const std::string& text) {
@@ -77,6 +78,7 @@ class Studio {
     maker_.SetMethod(arguments.cast.method);
     maker_.SetScene(std::move(scene));
     overlays_.crude = arguments.crude;
+    overlays_.true_sizes = arguments.true_sizes;
   }
 
   std::size_t FrameAt(double time_s) const {
@@ -111,7 +113,7 @@ class Studio {
     stage.camera = camera;
     stage.name_plates = overlays_.names;
     return picture_.renderer().DrawImage(stage, size.width, size.height,
-                                         std::max(1.0f, static_cast<float>(size.height) / 900.0f));
+                                         std::max(0.6f, static_cast<float>(size.height) / 800.0f));
   }
 
  private:
@@ -259,6 +261,8 @@ Command AddRenderCommand(CLI::App& program) {
   line->add_option("--strip", arguments->strip,
                    "So many instants in one picture, each from the front and from the side")
       ->check(CLI::Range(1, 100));
+  line->add_flag("--true-sizes", arguments->true_sizes,
+                 "Giants and dwarfs at their own size (default: at one that compares well)");
   line->add_flag("--crude", arguments->crude,
                  "Show the surfaces that the method works with over the avatars");
   line->footer(

@@ -87,12 +87,13 @@ void StageLayout::Place(std::size_t frame, Line line, std::span<const Member> me
   const bool sideways = line == Line::kSideways;
   const double reach = sideways ? reach_sideways_ : reach_depthwise_;
   double length = 0.0;
-  for (const Member& member : members) length += 2.0 * reach * member.height + kGap;
+  for (const Member& member : members)
+    length += 2.0 * (reach * member.height + member.girth) + kGap;
   const Vec3 along = sideways ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 0.0, -1.0);
   const Vec3 anchor = Anchor(frame);
   double at = -0.5 * length;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    const double half = reach * members[i].height + 0.5 * kGap;
+    const double half = reach * members[i].height + members[i].girth + 0.5 * kGap;
     at += half;
     offset_ws[i] = along * at + anchor * (1.0 - members[i].scale);
     at += half;

@@ -29,6 +29,7 @@ class StageLayout {
 
   struct Member {
     double height = 0.0;  // metres
+    double girth = 0.0;   // metres: half its breadth beyond that of a slim adult of its height
     double scale = 1.0;   // of its root path, relative to the performer's
   };
   /// Writes for each figure, in the order of the line, what to add to its own positions.

@@ -2,9 +2,41 @@
 #include "app/view/stage_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace ego {
+
+double DisplayScale(double height, double performer_height) {
+  constexpr double kSmallest = 0.4;
+  constexpr double kTallest = 1.4;
+  if (height <= 0.0 || performer_height <= 0.0) return 1.0;
+  const double ratio = height / performer_height;
+  return std::clamp(ratio, kSmallest, kTallest) / ratio;
+}
+
+namespace {
+
+// Name plates stand side by side: a long file name keeps its beginning.
+std::string Elided(const std::string& name) {
+  constexpr std::size_t kLongest = 20;
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool continues = (static_cast<unsigned char>(name[i]) & 0xC0u) == 0x80u;  // UTF-8
+    if (!continues && ++characters > kLongest) return name.substr(0, i) + "\u2026";
+  }
+  return name;
+}
+
+// Room that a broad body needs beside what its height already gives it.
+double Girth(const Body& body) {
+  constexpr double kSlim = 0.11;  // half the breadth of an adult, shares of height
+  double half = 0.0;
+  for (const Vec3& p : body.surface.sample_ms) half = std::max(half, std::abs(p.x));
+  return std::max(0.0, half - kSlim * body.height);
+}
+
+}  // namespace
 
 StagePicture::StagePicture(StageRenderer renderer) : renderer_(std::move(renderer)) {}
 
@@ -21,6 +53,7 @@ void StagePicture::SetMembers(std::vector<StageMember> members) {
       drawn.node_global.resize(member.character->nodes.joints.size());
     }
     drawn.member = std::move(member);
+    drawn.plate.clear();  // made anew with the next picture
   }
   for (const auto& [id, gone] : drawn_) renderer_.Unload(gone.mesh);
   drawn_ = std::move(next);
@@ -57,7 +90,7 @@ void StagePicture::AddPerformer(const StageFrame& frame, const Overlays& overlay
     }
     figures_.push_back(figure);
     roles_.push_back({FigureRole::Kind::kPerformer, 0});
-    members_.push_back({performer.height, 1.0});
+    members_.push_back({performer.height, 0.0, 1.0});
   }
   if (overlays.skeleton) {
     Figure figure;
@@ -66,8 +99,18 @@ void StagePicture::AddPerformer(const StageFrame& frame, const Overlays& overlay
     figure.skeleton = SkeletonPart{&performer.skeleton, &frame.performer, look::kSkeleton, false};
     figures_.push_back(figure);
     roles_.push_back({FigureRole::Kind::kSkeleton, 0});
-    members_.push_back({performer.height, 1.0});
+    members_.push_back({performer.height, 0.0, 1.0});
   }
+}
+
+void StagePicture::SetScale(Drawn& drawn, const Body& body, double scale) {
+  if (drawn.scale == scale && !drawn.plate.empty()) return;
+  drawn.scale = scale;
+  drawn.plate = Elided(drawn.member.name);
+  if (scale == 1.0) return;
+  const int percent = static_cast<int>(std::lround(100.0 * scale));
+  drawn.plate += "  " + std::to_string(percent) + " %";
+  drawn.scaled_body = Scaled(body, scale);
 }
 
 void StagePicture::AddAvatar(const StageFrame& frame, std::size_t index, const Overlays& overlays) {
@@ -75,12 +118,24 @@ void StagePicture::AddAvatar(const StageFrame& frame, std::size_t index, const O
   const auto found = drawn_.find(avatar.id);
   if (found == drawn_.end() || !found->second.member.visible) return;
   Drawn& drawn = found->second;
+  const double performer_height = frame.scene->motion->performer.height;
+  const double scale =
+      overlays.true_sizes ? 1.0 : DisplayScale(avatar.body->height, performer_height);
+  SetScale(drawn, *avatar.body, scale);
   const ModelPose& pose = frame.avatars[index].model;
   Figure figure;
-  figure.name = drawn.member.name;
+  figure.name = drawn.plate;
   figure.color = drawn.member.color;
   if (overlays.bodies) {
     PoseNodes(drawn.member.character->rig, pose, drawn.node_global);
+    if (scale != 1.0) {
+      // About the stage's origin, so that soles on the ground stay on it.
+      for (Mat4& node : drawn.node_global) {
+        for (int column = 0; column < 4; ++column) {
+          node[column] = Vec4(scale * Vec3(node[column]), node[column].w);
+        }
+      }
+    }
     CharacterPart character;
     character.character = drawn.mesh;
     character.node_global = drawn.node_global;
@@ -88,8 +143,15 @@ void StagePicture::AddAvatar(const StageFrame& frame, std::size_t index, const O
   }
   if (overlays.crude || !overlays.bodies) {
     SurfacePart surface;
-    surface.body = avatar.body.get();
-    surface.pose = &pose;
+    if (scale == 1.0) {
+      surface.body = avatar.body.get();
+      surface.pose = &pose;
+    } else {
+      drawn.scaled_pose = pose;
+      for (Vec3& p : drawn.scaled_pose.position_ws) p *= scale;
+      surface.body = &drawn.scaled_body;
+      surface.pose = &drawn.scaled_pose;
+    }
     surface.color = drawn.member.color;
     if (overlays.bodies) {
       surface.opacity = 0.45f;
@@ -100,9 +162,10 @@ void StagePicture::AddAvatar(const StageFrame& frame, std::size_t index, const O
   figures_.push_back(figure);
   roles_.push_back({FigureRole::Kind::kAvatar, avatar.id});
   const double performer_root = frame.scene->motion->performer.standing_root_height;
-  members_.push_back({avatar.body->height, performer_root > 0.0
-                                               ? avatar.body->standing_root_height / performer_root
-                                               : 1.0});
+  const double path_scale =
+      performer_root > 0.0 ? avatar.body->standing_root_height / performer_root : 1.0;
+  members_.push_back(
+      {scale * avatar.body->height, scale * Girth(*avatar.body), scale * path_scale});
 }
 
 std::span<const Figure> StagePicture::Arrange(const StageFrame& frame, const Overlays& overlays,

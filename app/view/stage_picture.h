@@ -31,7 +31,14 @@ struct Overlays {
   bool bodies = true;    // the avatars' meshes
   bool crude = false;    // the avatars' crude surfaces, over their meshes
   bool names = true;
+  /// Everyone at the size of the file. Else giants and dwarfs are shown at a size that can be
+  /// looked at beside the performer (DisplayScale), and their name plate tells so.
+  bool true_sizes = false;
 };
+
+/// Factor at which a body of this height is shown beside a performer: 1 from 0.4 to 1.4 times the
+/// performer's height, beyond that such that it ends at these bounds.
+double DisplayScale(double height, double performer_height);
 
 /// Who a figure on stage is.
 struct FigureRole {
@@ -74,7 +81,14 @@ class StagePicture {
     StageMember member;
     CharacterId mesh;
     std::vector<Mat4> node_global;
+
+    // What is shown when the body is not shown at its own size: made when the factor changes.
+    double scale = 1.0;
+    std::string plate;
+    Body scaled_body;
+    ModelPose scaled_pose;
   };
+  void SetScale(Drawn& drawn, const Body& body, double scale);
 
   Box3 BoundsOf(std::span<const Figure> figures);
   void AddPerformer(const StageFrame& frame, const Overlays& overlays);
