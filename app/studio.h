@@ -114,6 +114,7 @@ class Studio {
   void HandleKeys();
   void DrawStage();
   void FrameWhenChanged();
+  void FollowHeading();
   void RebuildScene();
   void PassMembers();
   void MeasureRate();
@@ -133,6 +134,7 @@ class Studio {
 
   Overlays overlays_;
   Camera camera_;
+  double heading_ = 0.0;  // of the take that the camera's yaw was last turned for
   std::optional<FigureRole> selection_;
   FrameLayout layout_;
   bool frame_when_ready_ = true;          // the camera has not been moved by hand yet

@@ -15,6 +15,7 @@ void Studio::DrawStage() {
   StageView stage;
   if (staged) {
     stage.figures = picture_.Arrange(frame(), overlays_, StageLayout::Line::kSideways, selection_);
+    FollowHeading();
     FrameWhenChanged();
   }
   stage.camera = camera_;
@@ -29,6 +30,15 @@ void Studio::DrawStage() {
   const float room = view.width / (1000.0f * gui_.scale());
   target.content_scale = gui_.scale() * std::clamp(room, 0.7f, 1.0f);
   picture_.renderer().Draw(stage, target);
+}
+
+void Studio::FollowHeading() {
+  const double turn = picture_.heading() - heading_;
+  if (turn == 0.0) return;
+  // Another take faces another way: the view keeps its side of the performer.
+  heading_ += turn;
+  camera_.yaw += turn;
+  camera_.target_ws = glm::angleAxis(turn, kUp) * camera_.target_ws;
 }
 
 void Studio::FrameWhenChanged() {
@@ -68,6 +78,7 @@ void Studio::FrameSelected() {
 
 void Studio::LookFrom(StandardView view) {
   camera_.Look(view);
+  camera_.yaw += heading_;
   FrameAll();
 }
 

@@ -102,6 +102,7 @@ class Studio {
     MakeRoomForNames(box);
     Camera camera;
     camera.Look(view);
+    camera.yaw += picture_.heading();
     camera.Frame(box, size, 0.04);
     return camera;
   }

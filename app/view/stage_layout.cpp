@@ -30,6 +30,19 @@ std::vector<Vec2> Averaged(const std::vector<Vec2>& path, std::size_t radius) {
   return averaged;
 }
 
+// What the hips face, on the ground; shorter the more they are tilted.
+Vec2 Facing(const Pose& pose) { return Ground(pose.rotation_ls[0] * Vec3(0.0, 0.0, 1.0)); }
+
+double MeanHeading(const std::vector<Pose>& poses) {
+  constexpr double kTurnsAround = 0.3;  // mean resultant length below which no way is the main one
+  if (poses.empty()) return 0.0;
+  Vec2 mean(0.0);
+  for (const Pose& pose : poses) mean += Facing(pose);
+  mean /= static_cast<double>(poses.size());
+  if (glm::length(mean) < kTurnsAround) mean = Facing(poses.front());
+  return glm::length(mean) > 1e-9 ? std::atan2(mean.x, mean.y) : 0.0;
+}
+
 double Percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -57,16 +70,23 @@ StageLayout::StageLayout(const CapturedMotion& motion) {
     anchor_ = Averaged(Averaged(path, radius), radius);
   }
 
+  heading_ = MeanHeading(motion.poses);
+  const Vec3 right{std::cos(heading_), 0.0, -std::sin(heading_)};
+  const Vec3 forward{std::sin(heading_), 0.0, std::cos(heading_)};
   std::vector<double> sideways;
   std::vector<double> depthwise;
   const std::size_t stride = std::max<std::size_t>(1, motion.poses.size() / 400);
   for (std::size_t frame = 0; frame < motion.poses.size(); frame += stride) {
     const ModelPose posed = ForwardKinematics(motion.performer.skeleton, motion.poses[frame]);
     const Vec3 anchor = Anchor(frame);
-    Vec3 farthest(0.0);
-    for (const Vec3& p : posed.position_ws) farthest = glm::max(farthest, glm::abs(p - anchor));
+    Vec2 farthest(0.0);
+    for (const Vec3& p : posed.position_ws) {
+      const Vec3 arm = p - anchor;
+      farthest = glm::max(farthest,
+                          Vec2(std::abs(glm::dot(arm, right)), std::abs(glm::dot(arm, forward))));
+    }
     sideways.push_back(farthest.x);
-    depthwise.push_back(farthest.z);
+    depthwise.push_back(farthest.y);
   }
   const auto reach = [&](const std::vector<double>& metres) {
     const double height = std::max(motion.performer.height, 0.1);
@@ -89,7 +109,8 @@ void StageLayout::Place(std::size_t frame, Line line, std::span<const Member> me
   double length = 0.0;
   for (const Member& member : members)
     length += 2.0 * (reach * member.height + member.girth) + kGap;
-  const Vec3 along = sideways ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 0.0, -1.0);
+  const double turn = sideways ? heading_ : heading_ + 0.5 * kPi;
+  const Vec3 along{std::cos(turn), 0.0, -std::sin(turn)};
   const Vec3 anchor = Anchor(frame);
   double at = -0.5 * length;
   for (std::size_t i = 0; i < members.size(); ++i) {

@@ -183,6 +183,7 @@ std::span<const Figure> StagePicture::Arrange(const StageFrame& frame, const Ove
   offsets_.resize(figures_.size());
   layout.Place(frame.frame, line, members_, offsets_);
   anchor_ = layout.Anchor(frame.frame);
+  heading_ = layout.heading();
   for (std::size_t i = 0; i < figures_.size(); ++i) {
     figures_[i].offset_ws = offsets_[i];
     figures_[i].selected = selected == roles_[i];

@@ -69,6 +69,9 @@ class StagePicture {
   /// Where the line of the last arranged frame has its middle, world space. A camera that follows
   /// adds this to its target.
   Vec3 anchor() const { return anchor_; }
+  /// Which way the performer mostly faces (StageLayout::heading); standard views add it to a
+  /// camera's yaw.
+  double heading() const { return heading_; }
   /// Box around the figures last arranged, relative to `anchor()`.
   Box3 Bounds();
   /// The same for one of them.
@@ -100,6 +103,7 @@ class StagePicture {
   std::shared_ptr<const CapturedMotion> layout_motion_;  // the one `layout_` was made for
   std::optional<StageLayout> layout_;
   Vec3 anchor_{0.0};
+  double heading_ = 0.0;
   std::vector<Figure> figures_;
   std::vector<FigureRole> roles_;
   std::vector<StageLayout::Member> members_;
