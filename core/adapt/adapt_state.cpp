@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/adapt/denormalize.h"
 #include "core/baselines/copy_joint_angles.h"
 
 namespace ego {
@@ -28,6 +29,7 @@ AdaptState::AdaptState(const Body& body, const EgocentricPose& coordinates,
                   avatar.standing_root_height * egocentric.root, avatar.skeleton, pose);
   PlaceBody(avatar, constants, pose, posed);
   ReadLimbs();
+  MeasureCapsuleReach(*this);
   for (const Limb l : kLimbs) {
     extremity_ws[Index(l)] = posed.pose.Rotation(JointsOf(l).end);
     const PointCoordinates& mid = egocentric.point[Index(MidPoint(l))];

@@ -15,7 +15,7 @@ namespace ego {
 struct BodySum {
   Vec3 position{0.0};       // sum of lambda-hat (x + v)
   double importance = 0.0;  // sum of lambda-hat
-  Vec3 initial{0.0};        // as position, every component brought out of the legs (section 6.1)
+  Vec3 initial{0.0};  // arms: as position, trunk's and head's part brought out of the legs (6.1)
 };
 
 /// An avatar's posture while it is adapted: what the steps of Algorithm 1 hand on. Lives for one
@@ -33,6 +33,9 @@ struct AdaptState {
   std::array<LimbChain, kLimbCount> chain;
   std::array<LimbPosture, kLimbCount> limb;
   std::array<BodySum, kLimbPointCount> body_sum;
+  /// Length of every displacement from a capsule on this body (equation 5 reversed): the six of
+  /// the other limbs by slot, then the other hand.
+  std::array<std::array<double, kOtherSegmentCount + 1>, kLimbPointCount> capsule_reach{};
   /// The same for equation 3: what trunk and head ask of the normals of hands and feet.
   std::array<Vec3, kLimbCount> normal_sum{};
   /// World rotations that hands and feet are to end with.

@@ -41,8 +41,8 @@ double WantedPitch(const AdaptState& state) {
       for (std::size_t slot = 2; slot < kOtherSegmentCount; ++slot) {
         const CapsuleRelation& relation = coordinates.capsule[slot];
         const LimbSegment segment = OtherSegment(arm, slot);
-        const Vec3 p = DenormalizeCapsule(state, j, relation, state.posed.capsule[Index(segment)],
-                                          StartJoint(segment));
+        const Vec3 p = DenormalizeCapsule(relation, state.posed.capsule[Index(segment)],
+                                          state.capsule_reach[Index(j)][slot]);
         const Vec3 desired = Perpendicular(p - root, axis);
         const double lambda = relation.importance * coordinates.importance_sum;
         sine += lambda * glm::dot(axis, glm::cross(achieved, desired));

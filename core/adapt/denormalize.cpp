@@ -60,6 +60,19 @@ class LegRegion {
   std::size_t count_ = 0;
 };
 
+/// Sum of lambda-hat (x + v) over one crude mesh (see MeshRelations).
+Vec3 MeshSum(const AdaptState& state, LimbPoint j, const MeshRelations& relations,
+             const std::array<double, kSampleCount>& weight, std::size_t first, std::size_t end) {
+  Vec3 position{0.0};
+  for (std::size_t s = first; s < end; ++s) position += weight[s] * state.posed.sample[s];
+  Vec3 displacement = OwnThickness(state, j) * relations.inside;
+  const BodyPaths& paths = PathsFromBody(j);
+  for (std::size_t i = 0; i < paths.length; ++i) {
+    displacement += state.constants.bone_length[paths.bone[i]] * relations.along[i];
+  }
+  return position + state.posed.hips * displacement;
+}
+
 /// A wanted position that depends on the partner's end joint: constant + on_partner * partner.
 struct LinearTarget {
   Vec3 constant{0.0};
@@ -77,8 +90,8 @@ LinearTarget LinearTargetOf(const AdaptState& state, LimbPoint j) {
     if (relation.importance == 0.0) continue;
     const LimbSegment other = OtherSegment(limb, slot);
     const PosedCapsule& capsule = state.posed.capsule[Index(other)];
-    target.constant +=
-        relation.importance * DenormalizeCapsule(state, j, relation, capsule, StartJoint(other));
+    target.constant += relation.importance *
+                       DenormalizeCapsule(relation, capsule, state.capsule_reach[Index(j)][slot]);
     if (LimbOf(other) == partner && IsLower(other)) {
       const double share = relation.importance * relation.axial;
       target.on_partner += share;
@@ -87,9 +100,10 @@ LinearTarget LinearTargetOf(const AdaptState& state, LimbPoint j) {
   }
   if (coordinates.hand.importance > 0.0) {
     const PosedCapsule& hand = state.posed.hand[Index(partner)];
-    target.constant +=
-        coordinates.hand.importance *
-        (DenormalizeCapsule(state, j, coordinates.hand, hand, JointsOf(partner).end) - hand.start);
+    target.constant += coordinates.hand.importance *
+                       (DenormalizeCapsule(coordinates.hand, hand,
+                                           state.capsule_reach[Index(j)][kOtherSegmentCount]) -
+                        hand.start);
     target.on_partner += coordinates.hand.importance;
   }
   if (coordinates.ground.importance > 0.0) {
@@ -136,19 +150,25 @@ Vec3 WithinReach(const LimbChain& chain, const Vec3& target) {
 
 }  // namespace
 
-Vec3 DenormalizeTriangle(const AdaptState& state, LimbPoint j, std::size_t t) {
-  const TriangleRelation& relation = state.egocentric.point[Index(j)].triangle[t];
-  const double reach =
-      Reach(state, relation.distance, PathBetween(ParentJoint(t), j), OwnThickness(state, j));
-  return AtBarycentric(state.posed.triangle[t], relation.barycentric) +
-         reach * (state.posed.hips * relation.direction_ls);
-}
-
-Vec3 DenormalizeCapsule(const AdaptState& state, LimbPoint j, const CapsuleRelation& relation,
-                        const PosedCapsule& capsule, HumanoidJoint parent) {
-  const double reach = Reach(state, relation.distance, PathBetween(parent, j),
-                             capsule.radius + OwnThickness(state, j));
-  return capsule.At(relation.axial) + reach * (capsule.frame * relation.direction_ls);
+void MeasureCapsuleReach(AdaptState& state) {
+  const std::size_t points = state.egocentric.form.hand_points ? kLimbPointCount : kLimbJointCount;
+  for (std::size_t k = 0; k < points; ++k) {
+    const auto j = static_cast<LimbPoint>(k);
+    const PointCoordinates& coordinates = state.egocentric.point[k];
+    const double own = OwnThickness(state, j);
+    for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
+      if (coordinates.capsule[slot].importance == 0.0) continue;
+      const LimbSegment other = OtherSegment(LimbOf(j), slot);
+      state.capsule_reach[k][slot] =
+          Reach(state, coordinates.capsule[slot].distance, PathBetween(StartJoint(other), j),
+                state.avatar.surface.limb_radius[Index(other)] + own);
+    }
+    if (coordinates.hand.importance == 0.0) continue;
+    const Limb partner = Mirror(LimbOf(j));
+    state.capsule_reach[k][kOtherSegmentCount] =
+        Reach(state, coordinates.hand.distance, PathBetween(JointsOf(partner).end, j),
+              state.avatar.surface.hand[Index(partner)].half_thickness + own);
+  }
 }
 
 Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
@@ -168,25 +188,25 @@ void SumBody(AdaptState& state) {
   for (std::size_t k = 0; k < points; ++k) {
     const auto j = static_cast<LimbPoint>(k);
     const PointCoordinates& coordinates = state.egocentric.point[k];
+    const Vec3 trunk =
+        MeshSum(state, j, coordinates.trunk, coordinates.sample, 0, kTrunkSampleCount);
+    const Vec3 head =
+        MeshSum(state, j, coordinates.head, coordinates.sample, kTrunkSampleCount, kSampleCount);
+    BodySum& sum = state.body_sum[k];
+    sum = {trunk + head, coordinates.trunk.importance + coordinates.head.importance, Vec3{0.0}};
+    if (!IsArm(LimbOf(j))) continue;
     const LegRegion region(state, j);
-    BodySum sum;
-    for (std::size_t t = 0; t < kTriangleCount; ++t) {
-      const double importance = coordinates.triangle[t].importance;
-      const Vec3 p = DenormalizeTriangle(state, j, t);
-      sum.position += importance * p;
-      sum.initial += importance * region.Inside(p);
-      sum.importance += importance;
-    }
-    state.body_sum[k] = sum;
+    const auto part = [&](const Vec3& position, double importance) {
+      return importance > 0.0 ? importance * region.Inside(position / importance) : Vec3{0.0};
+    };
+    sum.initial =
+        part(trunk, coordinates.trunk.importance) + part(head, coordinates.head.importance);
   }
   state.normal_sum = {};
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
     const Mat3& frame = state.posed.tangent[t];
     for (const Limb limb : kLimbs) {
-      const PointCoordinates& coordinates =
-          state.egocentric.point[Index(OrientingPoint(state.egocentric, limb))];
-      state.normal_sum[Index(limb)] += coordinates.triangle[t].importance *
-                                       (frame * state.egocentric.normal[Index(limb)].triangle[t]);
+      state.normal_sum[Index(limb)] += frame * state.egocentric.normal[Index(limb)].triangle[t];
     }
   }
 }
@@ -234,8 +254,8 @@ LimbTargets InitialTargets(const AdaptState& state, Limb arm) {
       const LimbSegment other = OtherSegment(arm, slot);
       const CapsuleRelation& relation = coordinates.capsule[slot];
       sum += relation.importance *
-             region.Inside(DenormalizeCapsule(state, j, relation, state.posed.capsule[Index(other)],
-                                              StartJoint(other)));
+             region.Inside(DenormalizeCapsule(relation, state.posed.capsule[Index(other)],
+                                              state.capsule_reach[Index(j)][slot]));
       importance += relation.importance;
     }
     return sum / importance - HandOffset(state, j);

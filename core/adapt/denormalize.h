@@ -6,13 +6,17 @@
 namespace ego {
 
 /// Equation 2 of one tuple on the avatar: reference point plus denormalised displacement, world
-/// space.
-Vec3 DenormalizeTriangle(const AdaptState& state, LimbPoint j, std::size_t t);
-Vec3 DenormalizeCapsule(const AdaptState& state, LimbPoint j, const CapsuleRelation& relation,
-                        const PosedCapsule& capsule, HumanoidJoint parent);
+/// space. `reach` is the length of the displacement (AdaptState::capsule_reach).
+inline Vec3 DenormalizeCapsule(const CapsuleRelation& relation, const PosedCapsule& capsule,
+                               double reach) {
+  return capsule.At(relation.axial) + reach * (capsule.frame * relation.direction_ls);
+}
 /// An ankle against the ground: where it must be for the sole to keep its place and height in
 /// standing root heights, with the foot turned as it will end.
 Vec3 DenormalizeGround(const AdaptState& state, Limb leg);
+
+/// Fills `capsule_reach`, which no posture changes.
+void MeasureCapsuleReach(AdaptState& state);
 
 /// Sums over trunk and head for all points and normals, from the triangles in place.
 void SumBody(AdaptState& state);
@@ -35,7 +39,8 @@ LimbTargets TargetsOf(const AdaptState& state, Limb limb);
 std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left);
 
 /// Targets of an arm for the initial posture (section 6.1): the other arm is ignored, and every
-/// single component is brought into the half-spaces of the legs before the mean is taken.
+/// component is brought into the half-spaces of the legs before the mean is taken; trunk and head
+/// are one component each.
 LimbTargets InitialTargets(const AdaptState& state, Limb arm);
 
 }  // namespace ego

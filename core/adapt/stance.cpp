@@ -12,8 +12,7 @@ void LockStance(AdaptState& state, Limb leg) {
   const double height = state.scale * state.settings.stance_height;
   if (!(height > 0.0)) return;
   const PointCoordinates& ankle = state.egocentric.point[Index(EndPoint(leg))];
-  double other = 0.0;
-  for (const TriangleRelation& r : ankle.triangle) other = std::max(other, r.importance);
+  double other = ankle.mesh_importance_max;
   for (const CapsuleRelation& r : ankle.capsule) other = std::max(other, r.importance);
   const double share = ankle.ground.importance / (ankle.ground.importance + other);
   const double sole = ankle.ground.gap * state.avatar.standing_root_height;

@@ -22,12 +22,15 @@ struct NormalizedDistance {
   PathCosines cosine{};  // C
 };
 
-/// One tuple of equation 6 against a triangle of trunk or head.
-struct TriangleRelation {
-  double importance = 0.0;  // lambda-hat
-  Vec3 barycentric{0.0};    // x-hat
-  Vec3 direction_ls{0.0};   // of v-hat, unit, in the frame of the hips
-  NormalizedDistance distance;
+/// All tuples of equation 6 against the triangles of one crude mesh, summed. On another body every
+/// term lambda-hat (x + v) of equation 2 is linear in that body's own samples, bone lengths and
+/// thickness, whatever triangle it belongs to; only their coefficients are kept:
+///   sum of lambda-hat (x + v) = sum over samples of weight * sample'
+///                             + R_hips (thickness' * inside + sum over bones of length' * along).
+struct MeshRelations {
+  double importance = 0.0;  // sum of lambda-hat
+  Vec3 inside{0.0};         // of lambda-hat v-hat's direction, as far as the thickness fills it
+  std::array<Vec3, kMaxPathLength> along{};  // in the order of BodyPaths::bone
 };
 
 /// One tuple of equation 6 against a limb's capsule.
@@ -48,7 +51,10 @@ struct GroundRelation {
 
 /// Egocentric coordinates of one point: E_j of equation 6.
 struct PointCoordinates {
-  std::array<TriangleRelation, kTriangleCount> triangle;
+  std::array<double, kSampleCount> sample{};  // of lambda-hat x-hat, trunk's samples first
+  MeshRelations trunk;
+  MeshRelations head;
+  double mesh_importance_max = 0.0;  // largest lambda-hat of a single triangle
   std::array<CapsuleRelation, kOtherSegmentCount> capsule;
   CapsuleRelation hand;   // points of an arm: the other hand as a capsule
   GroundRelation ground;  // ankles
@@ -63,7 +69,8 @@ struct PointCoordinates {
 /// The surface normal of a hand or foot against every primitive (equation 3). The deviation beta_i
 /// is kept as the normal's components in the primitive's tangent frame (triangles), bone frame
 /// (capsules) and the world (ground): the same information, without the singularity that the
-/// smallest rotation between two normals has exactly where surfaces face each other.
+/// smallest rotation between two normals has exactly where surfaces face each other. Those of the
+/// triangles are multiplied by lambda-hat of `OrientingPoint`.
 struct NormalCoordinates {
   std::array<Vec3, kTriangleCount> triangle{};
   std::array<Vec3, kOtherSegmentCount> capsule{};

@@ -10,7 +10,7 @@ struct Chain {
   std::size_t length = 0;
 };
 
-Chain ChainTo(HumanoidJoint joint) {
+constexpr Chain ChainTo(HumanoidJoint joint) {
   Chain up;
   for (std::size_t j = Index(joint);; j = Index(kParent[j])) {
     up.joint[up.length++] = j;
@@ -21,7 +21,7 @@ Chain ChainTo(HumanoidJoint joint) {
   return down;
 }
 
-KinematicPath MakePath(HumanoidJoint from, LimbPoint to) {
+constexpr KinematicPath MakePath(HumanoidJoint from, LimbPoint to) {
   const Chain a = ChainTo(from);
   const Chain b = ChainTo(JointOf(to));
   std::size_t common = 0;
@@ -38,9 +38,17 @@ KinematicPath MakePath(HumanoidJoint from, LimbPoint to) {
 
 using PathTable = std::array<std::array<KinematicPath, kLimbPointCount>, kJointCount>;
 
-PathTable MakeTable() {
-  PathTable table;
+/// Feet and toes carry nothing that other points relate to.
+constexpr bool CarriesSurface(HumanoidJoint joint) {
+  using J = HumanoidJoint;
+  return joint != J::kLeftFoot && joint != J::kRightFoot && joint != J::kLeftToes &&
+         joint != J::kRightToes;
+}
+
+constexpr PathTable MakeTable() {
+  PathTable table{};
   for (std::size_t from = 0; from < kJointCount; ++from) {
+    if (!CarriesSurface(static_cast<HumanoidJoint>(from))) continue;
     for (std::size_t to = 0; to < kLimbPointCount; ++to) {
       table[from][to] = MakePath(static_cast<HumanoidJoint>(from), static_cast<LimbPoint>(to));
     }
@@ -48,11 +56,38 @@ PathTable MakeTable() {
   return table;
 }
 
+constexpr PathTable kPathTable = MakeTable();
+
+BodyPaths MakeBodyPaths(LimbPoint to) {
+  BodyPaths paths;
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const HumanoidJoint from = ParentJoint(t);
+    const KinematicPath& path = PathBetween(from, to);
+    for (std::size_t i = 0; i < path.length; ++i) {
+      std::size_t column = 0;
+      while (column < paths.length && paths.bone[column] != path.bone[i]) ++column;
+      if (column == paths.length) paths.bone[paths.length++] = path.bone[i];
+      paths.on_path[Index(from)][column] = 1.0;
+    }
+  }
+  return paths;
+}
+
 }  // namespace
 
 const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to) {
-  static const PathTable kTable = MakeTable();
-  return kTable[Index(from)][Index(to)];
+  return kPathTable[Index(from)][Index(to)];
+}
+
+const BodyPaths& PathsFromBody(LimbPoint to) {
+  static const std::array<BodyPaths, kLimbPointCount> kAll = [] {
+    std::array<BodyPaths, kLimbPointCount> all;
+    for (std::size_t j = 0; j < kLimbPointCount; ++j) {
+      all[j] = MakeBodyPaths(static_cast<LimbPoint>(j));
+    }
+    return all;
+  }();
+  return kAll[Index(to)];
 }
 
 }  // namespace ego

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/body/body_surface.h"
 #include "core/egocentric/limb_point.h"
 
 namespace ego {
@@ -27,7 +28,22 @@ struct KinematicPath {
 };
 
 /// The path from joint `from` up to the common ancestor and down to `to`. The same on every body.
+/// Feet and toes carry no reference point; from them the path is empty.
 const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to);
+
+/// The paths from all triangles of trunk and head to one limb point, side by side: all bones that
+/// any of them runs along, and which of them each does.
+struct BodyPaths {
+  std::array<std::uint8_t, kMaxPathLength> bone{};
+  std::size_t length = 0;
+  /// 1 where the path from this joint has the bone, else 0.
+  std::array<std::array<double, kMaxPathLength>, kJointCount> on_path{};
+};
+const BodyPaths& PathsFromBody(LimbPoint to);
+
+/// Added to every cosine, so that tau stays above zero where all bones are at right angles to the
+/// displacement and the ratio of two bodies' tau is always a convex mean of their bones' ratios.
+inline constexpr double kLeastCosine = 0.01;
 
 /// Absolute cosines |cos alpha_i| of a path's bones to a displacement (equation 4).
 using PathCosines = std::array<float, kMaxPathLength>;
@@ -41,14 +57,12 @@ inline void CosinesAlong(const KinematicPath& path, const Vec3& direction,
   }
 }
 
-/// tau = sum of |s_i| |cos alpha_i| (equation 5). Every cosine is raised by .01, so that tau stays
-/// above zero where all bones are at right angles to the displacement and the ratio of two bodies'
-/// tau is always a convex mean of their bones' ratios.
+/// tau = sum of |s_i| |cos alpha_i| (equation 5).
 inline double PathFactor(const KinematicPath& path, const PathCosines& cosine,
                          const std::array<double, kBoneCount>& bone_length) {
   double tau = 0.0;
   for (std::size_t i = 0; i < path.length; ++i) {
-    tau += bone_length[path.bone[i]] * (0.01 + static_cast<double>(cosine[i]));
+    tau += bone_length[path.bone[i]] * (kLeastCosine + static_cast<double>(cosine[i]));
   }
   return tau;
 }

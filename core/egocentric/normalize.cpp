@@ -50,23 +50,90 @@ struct Importance {
   }
 };
 
-void RelateToTriangle(const Context& context, std::size_t t, LimbPoint j, Importance& importance,
-                      TriangleRelation& relation) {
-  const Triangle& triangle = context.posed.triangle[t];
+/// The bones to one limb point, component by component, so that all are treated at once.
+struct PathBones {
+  PathBones(const Context& context, LimbPoint j) : paths(PathsFromBody(j)) {
+    for (std::size_t i = 0; i < paths.length; ++i) {
+      const Vec3& direction = context.posed.bone_direction[paths.bone[i]];
+      x[i] = direction.x;
+      y[i] = direction.y;
+      z[i] = direction.z;
+      length[i] = context.constants.bone_length[paths.bone[i]];
+    }
+  }
+  const BodyPaths& paths;
+  std::array<double, kMaxPathLength> x{};
+  std::array<double, kMaxPathLength> y{};
+  std::array<double, kMaxPathLength> z{};
+  std::array<double, kMaxPathLength> length{};
+};
+
+/// Relations to the triangles of one mesh, summed in world space.
+struct MeshSum {
+  Vec3 inside{0.0};
+  std::array<double, kMaxPathLength> x{};
+  std::array<double, kMaxPathLength> y{};
+  std::array<double, kMaxPathLength> z{};
+};
+
+/// Relates a point to all triangles of one mesh; `weight` are their importances before
+/// normalisation.
+void RelateToMesh(const Context& context, std::size_t first, std::size_t count, LimbPoint j,
+                  const PathBones& bones, Importance& importance,
+                  std::array<double, kTriangleCount>& weight, PointCoordinates& out,
+                  MeshRelations& relations) {
   const Vec3& p = context.posed.point[Index(j)];
   const double filled =
       context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
-  relation.barycentric = ClosestOnTriangle(triangle, p);
-  const Vec3 v = p - AtBarycentric(triangle, relation.barycentric);
-  const double reach = glm::length(v);
-  const Vec3 direction = reach > 1e-12 ? v / reach : triangle.normal;
-  relation.direction_ls = direction * context.posed.hips;
-  NormalizeDistance(context, PathBetween(ParentJoint(t), j), direction, reach, filled,
-                    relation.distance);
-  relation.importance = importance.Of(
-      reach - filled, Orthogonality(glm::dot(v, triangle.normal), reach,
-                                    context.scale * context.settings.orthogonality_softness,
-                                    context.settings.orthogonality_floor));
+  const double softness = context.scale * context.settings.orthogonality_softness;
+  const double least_tau = 1e-9 * context.body.height;
+  MeshSum sum;
+  for (std::size_t t = first; t < first + count; ++t) {
+    const Triangle& triangle = context.posed.triangle[t];
+    const Vec3 barycentric = ClosestOnTriangle(triangle, p);
+    const Vec3 v = p - AtBarycentric(triangle, barycentric);
+    const double reach = glm::length(v);
+    const Vec3 direction = reach > 1e-12 ? v / reach : triangle.normal;
+    const double lambda =
+        importance.Of(reach - filled, Orthogonality(glm::dot(v, triangle.normal), reach, softness,
+                                                    context.settings.orthogonality_floor));
+    weight[t] = lambda;
+    relations.importance += lambda;
+    const SampleTriangle& corner = SampleTriangles()[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.sample[Index(corner[k])] += lambda * barycentric[static_cast<int>(k)];
+    }
+    const double inside = filled > 0.0 ? std::min(1.0, reach / filled) : 1.0;
+    sum.inside += (lambda * inside) * direction;
+
+    // Equations 4 and 5: the gap over tau, spread over the bones again.
+    const std::array<double, kMaxPathLength>& on_path = bones.paths.on_path[Index(ParentJoint(t))];
+    std::array<double, kMaxPathLength> factor;
+    double tau = 0.0;
+    for (std::size_t i = 0; i < kMaxPathLength; ++i) {
+      factor[i] = on_path[i] *
+                  (kLeastCosine + std::abs(direction.x * bones.x[i] + direction.y * bones.y[i] +
+                                           direction.z * bones.z[i]));
+    }
+    for (std::size_t i = 0; i < kMaxPathLength; ++i) tau += bones.length[i] * factor[i];
+    const double gap = std::max(0.0, reach - filled) / std::max(tau, least_tau);
+    const Vec3 step = (lambda * gap) * direction;
+    for (std::size_t i = 0; i < kMaxPathLength; ++i) {
+      sum.x[i] += factor[i] * step.x;
+      sum.y[i] += factor[i] * step.y;
+      sum.z[i] += factor[i] * step.z;
+    }
+  }
+  relations.inside = sum.inside * context.posed.hips;
+  for (std::size_t i = 0; i < kMaxPathLength; ++i) {
+    relations.along[i] = Vec3{sum.x[i], sum.y[i], sum.z[i]} * context.posed.hips;
+  }
+}
+
+void Multiply(MeshRelations& relations, double share) {
+  relations.importance *= share;
+  relations.inside *= share;
+  for (Vec3& along : relations.along) along *= share;
 }
 
 void RelateToCapsule(const Context& context, const PosedCapsule& capsule, HumanoidJoint parent,
@@ -105,14 +172,21 @@ GroundRelation RelateToGround(const Context& context, LimbPoint j, Importance& i
   return relation;
 }
 
-void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) {
+/// `triangle` are the triangles' shares, for the normals.
+void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
+                    std::array<double, kTriangleCount>& triangle) {
   const NormalizeSettings& settings = context.settings;
   const Limb limb = LimbOf(j);
   Importance importance{context.scale * settings.surface_epsilon,
                         context.scale * settings.gamma_epsilon};
-  for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    RelateToTriangle(context, t, j, importance, out.triangle[t]);
-  }
+  const PathBones bones(context, j);
+  out.sample = {};
+  out.trunk = {};
+  out.head = {};
+  RelateToMesh(context, 0, kTrunkTriangleCount, j, bones, importance, triangle, out, out.trunk);
+  RelateToMesh(context, kTrunkTriangleCount, kTriangleCount - kTrunkTriangleCount, j, bones,
+               importance, triangle, out, out.head);
+  out.mesh_importance_max = importance.max;
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const LimbSegment other = OtherSegment(limb, slot);
     if (!IsArm(limb) && IsArm(LimbOf(other)) && !settings.form.legs_relate_to_arms) {
@@ -133,7 +207,11 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) 
 
   // Normalised linearly so that they sum to one (section 5.1).
   const double share = 1.0 / importance.sum;
-  for (TriangleRelation& relation : out.triangle) relation.importance *= share;
+  for (double& weight : triangle) weight *= share;
+  for (double& weight : out.sample) weight *= share;
+  Multiply(out.trunk, share);
+  Multiply(out.head, share);
+  out.mesh_importance_max *= share;
   for (CapsuleRelation& relation : out.capsule) relation.importance *= share;
   out.hand.importance *= share;
   out.ground.importance *= share;
@@ -142,14 +220,15 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out) 
   out.priority = importance.priority * context.body.height;
 }
 
-void NormalizeNormal(const Context& context, Limb limb, NormalCoordinates& out) {
+void NormalizeNormal(const Context& context, Limb limb,
+                     const std::array<double, kTriangleCount>& importance, NormalCoordinates& out) {
   const BodySurface& surface = context.body.surface;
   const std::size_t side = IsLeft(limb) ? 0 : 1;
   const Vec3& normal_ms =
       IsArm(limb) ? surface.hand[side].palm_normal_ms : surface.foot[side].sole_normal_ms;
   const Vec3 normal = context.posed.pose.Rotation(JointsOf(limb).end) * normal_ms;
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    out.triangle[t] = glm::transpose(context.posed.tangent[t]) * normal;
+    out.triangle[t] = importance[t] * (normal * context.posed.tangent[t]);
   }
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const PosedCapsule& capsule = context.posed.capsule[Index(OtherSegment(limb, slot))];
@@ -212,10 +291,15 @@ void Normalize(const Body& performer, const Pose& pose, const NormalizeSettings&
   out.root = pose.root_ws / performer.standing_root_height;
 
   const std::size_t points = settings.form.hand_points ? kLimbPointCount : kLimbJointCount;
-  for (std::size_t j = 0; j < points; ++j) {
-    NormalizePoint(context, static_cast<LimbPoint>(j), out.point[j]);
+  std::array<double, kTriangleCount> triangle;
+  for (std::size_t k = 0; k < points; ++k) {
+    const auto j = static_cast<LimbPoint>(k);
+    NormalizePoint(context, j, out.point[k], triangle);
+    const Limb limb = LimbOf(j);
+    if (j == OrientingPoint(out, limb)) {
+      NormalizeNormal(context, limb, triangle, out.normal[Index(limb)]);
+    }
   }
-  for (const Limb limb : kLimbs) NormalizeNormal(context, limb, out.normal[Index(limb)]);
   for (std::size_t i = 0; i < kSegmentCount; ++i) {
     for (std::size_t j = 2 * (i / 2) + 2; j < kSegmentCount; ++j) {
       NormalizePlanes(context, static_cast<LimbSegment>(i), static_cast<LimbSegment>(j), out);

@@ -102,7 +102,7 @@ SoleOffset MeasureSole(const Body& body, const BodyConstants& constants, Limb le
 }
 
 void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed) {
-  std::array<Vec3, kSampleCount> sample;
+  std::array<Vec3, kSampleCount>& sample = posed.sample;
   for (std::size_t i = 0; i < kSampleCount; ++i) {
     const Attachment& a = body.surface.attachment[i];
     Vec3 sum{0.0};

@@ -38,6 +38,7 @@ struct PosedCapsule {
 struct PosedBody {
   ModelPose pose;
   Mat3 hips{1.0};  // rotation of the root, the frame of displacements from trunk and head
+  std::array<Vec3, kSampleCount> sample;
   std::array<Triangle, kTriangleCount> triangle;
   /// Tangent frames: columns normal, along, third. `along` is the part of the hips' +Y (of +Z for
   /// faces that look up or down in the template) at right angles to the normal, so that the frames
@@ -69,7 +70,7 @@ SoleOffset MeasureSole(const Body& body, const BodyConstants& constants, Limb le
 /// What a foot stands on, by how far it is pitched: 0 heel, 0.5 flat, 1 ball.
 double StandsOnBall(const Body& body, Limb leg, const Quat& foot_ws);
 
-/// The triangles and their frames again, from joints already in `posed.pose`.
+/// Samples, triangles and their frames again, from joints already in `posed.pose`.
 void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed);
 
 /// The capsules, points and hand of one limb again, from joints already in `posed.pose`.

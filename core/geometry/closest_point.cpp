@@ -7,8 +7,19 @@
 namespace ego {
 
 Triangle Triangle::Of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Triangle triangle{a, b, c, Vec3{0.0}, 0.0};
-  const Vec3 normal = glm::cross(b - a, c - a);
+  Triangle triangle;
+  triangle.a = a;
+  triangle.b = b;
+  triangle.c = c;
+  triangle.ab = b - a;
+  triangle.ac = c - a;
+  triangle.center = (a + b + c) / 3.0;
+  const auto square_to = [&](const Vec3& corner) {
+    const Vec3 d = corner - triangle.center;
+    return glm::dot(d, d);
+  };
+  triangle.reach = std::sqrt(std::max({square_to(a), square_to(b), square_to(c)}));
+  const Vec3 normal = glm::cross(triangle.ab, triangle.ac);
   const double length = glm::length(normal);
   triangle.area = 0.5 * length;
   if (length > 0.0) triangle.normal = normal / length;
@@ -17,8 +28,8 @@ Triangle Triangle::Of(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 Vec3 ClosestOnTriangle(const Triangle& triangle, const Vec3& p) {
   // Ericson, Real-Time Collision Detection, 5.1.5: by the Voronoi region of the projection.
-  const Vec3 ab = triangle.b - triangle.a;
-  const Vec3 ac = triangle.c - triangle.a;
+  const Vec3& ab = triangle.ab;
+  const Vec3& ac = triangle.ac;
   const Vec3 ap = p - triangle.a;
   const double d1 = glm::dot(ab, ap);
   const double d2 = glm::dot(ac, ap);

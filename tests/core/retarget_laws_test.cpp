@@ -206,10 +206,13 @@ TEST(Normalize, ImportancesSumToOne) {
       for (std::size_t j = 0; j < points; ++j) {
         const PointCoordinates& point = egocentric->point[j];
         double sum = point.hand.importance + point.ground.importance;
-        for (const TriangleRelation& r : point.triangle) {
-          EXPECT_GE(r.importance, 0.0);
-          sum += r.importance;
+        sum += point.trunk.importance + point.head.importance;
+        double samples = 0.0;
+        for (const double weight : point.sample) {
+          EXPECT_GE(weight, 0.0);
+          samples += weight;
         }
+        EXPECT_NEAR(samples, point.trunk.importance + point.head.importance, 1e-12);
         for (const CapsuleRelation& r : point.capsule) sum += r.importance;
         EXPECT_NEAR(sum, 1.0, 1e-12) << name << " point " << j;
       }
@@ -231,9 +234,9 @@ TEST(Normalize, LeavesNoMetre) {
     EXPECT_LT(glm::distance(a->root, b->root), 1e-12);
     for (std::size_t j = 0; j < kLimbPointCount; ++j) {
       EXPECT_NEAR(a->point[j].importance_sum / b->point[j].importance_sum, 1.0, 1e-9);
-      for (std::size_t t = 0; t < kTriangleCount; ++t) {
-        EXPECT_NEAR(a->point[j].triangle[t].distance.gap, b->point[j].triangle[t].distance.gap,
-                    1e-5);
+      for (std::size_t i = 0; i < kMaxPathLength; ++i) {
+        EXPECT_LT(glm::distance(a->point[j].trunk.along[i], b->point[j].trunk.along[i]), 1e-9);
+        EXPECT_LT(glm::distance(a->point[j].head.along[i], b->point[j].head.along[i]), 1e-9);
       }
     }
   }
