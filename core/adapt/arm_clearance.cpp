@@ -30,59 +30,97 @@ struct Row {
   double weight = 0.0;
 };
 struct Rows {
-  std::array<Row, kClearanceSampleCount * kObstacleCount> row;
+  std::array<Row, 2 * kClearanceSampleCount * kObstacleCount> row;
   std::size_t count = 0;
   void Add(const Row& wish) { row[count++] = wish; }
 };
 
-/// Signed distance of a sample to an obstacle in place and the way out. False where it is far.
-bool Measure(const AdaptState& state, const BodyObstacles& body, Limb arm, const ArmSample& sample,
-             const Clearance& performer, std::size_t obstacle, SignedDistance& out) {
-  if (obstacle < 2) {
-    if (!body.Distance(obstacle, sample, out)) return false;
-    out.gradient = NormalizedOr(out.gradient, Vec3{0.0});
-    return true;
+using ArmSamples = std::array<ArmSample, kClearanceSampleCount>;
+
+/// Distances of one arm's samples to trunk and head as first measured. The corrections are small:
+/// later steps follow the gradient, but for the points of contact, which are measured again.
+struct MeshMemory {
+  struct Entry {
+    SignedDistance at;
+    Vec3 center{0.0};
+    bool measured = false;
+  };
+  std::array<std::array<Entry, 2>, kClearanceSampleCount> entry;
+};
+
+/// Signed distance of a sample to trunk or head and the way out. False where it is far.
+bool MeasureMesh(const BodyObstacles& body, std::size_t obstacle, const ArmSample& sample,
+                 bool anew, MeshMemory::Entry& memory, SignedDistance& out) {
+  if (anew || !memory.measured) {
+    if (!body.Distance(obstacle, sample, memory.at)) return false;
+    memory.at.gradient = NormalizedOr(memory.at.gradient, Vec3{0.0});
+    memory.center = sample.center;
+    memory.measured = true;
   }
-  const PosedCapsule& capsule = ObstacleCapsule(state.posed, arm, obstacle);
-  const Vec3 from_axis =
-      sample.center - capsule.At(ClosestOnSegment(sample.center, capsule.start, capsule.end));
-  // The performer's side of the obstacle decides where the avatar's lies deep inside.
-  const Vec3 side = capsule.frame * performer.direction_ls;
-  out.gradient = NormalizedOr(from_axis + 0.015 * state.scale * side, side);
-  out.distance = glm::dot(out.gradient, from_axis) - capsule.radius - sample.radius;
+  out = memory.at;
+  out.distance += glm::dot(out.gradient, sample.center - memory.center);
   return true;
 }
 
-void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm, Rows& rows) {
+/// The same for a capsule. False where it is farther than `horizon`.
+bool MeasureCapsule(const AdaptState& state, const PosedCapsule& capsule, const ArmSample& sample,
+                    const Vec3& side_ls, double horizon, SignedDistance& out) {
+  const Vec3 from_axis =
+      sample.center - capsule.At(ClosestOnSegment(sample.center, capsule.start, capsule.end));
+  // Along any direction the distance is less than the length, so `horizon` rejects safely.
+  const double filled = capsule.radius + sample.radius;
+  const double nudge = 0.015 * state.scale;
+  const double far = filled + horizon + 2.0 * nudge;
+  if (glm::dot(from_axis, from_axis) > far * far) return false;
+  // The performer's side of the obstacle decides where the avatar's lies deep inside.
+  const Vec3 side = capsule.frame * side_ls;
+  out.gradient = NormalizedOr(from_axis + nudge * side, side);
+  out.distance = glm::dot(out.gradient, from_axis) - filled;
+  return true;
+}
+
+/// Clearance that is kept of the performer's own: all of it where there is little.
+double Need(double clearance, double margin) {
+  return clearance <= 0.0 ? clearance : margin * -std::expm1(-clearance / margin);
+}
+
+void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
+                 const ArmSamples& samples, MeshMemory& memory, Rows& rows) {
   const double height = state.avatar.height;
   const double margin = state.scale * state.settings.clearance_margin;
   const double fade = state.scale * state.settings.contact_fade;
-  for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
-    const bool contact = s >= kFirstContactSample;
-    if (s > kFirstContactSample && !state.egocentric.form.hand_points) break;
-    const ArmSample sample = SampleOf(state.avatar, state.posed, arm, s);
+  const std::size_t count =
+      state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
+  for (std::size_t s = 0; s < count; ++s) {
+    const ArmSample& sample = samples[s];
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
       const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
       const double clearance = performer.distance * height;
-      const double need = !performer.known   ? margin
-                          : clearance <= 0.0 ? clearance
-                                             : margin * -std::expm1(-clearance / margin);
       const bool other_hand = o == kObstacleCount - 1;
       // Both arms move when one is in the other's way.
       const bool other_arm = o == 2 || o == 3 || other_hand;
       const double share = other_arm ? 0.5 : 1.0;
-      const double touching =
-          contact && performer.known ? performer.trust * (1.0 - Smoothstep(clearance / fade)) : 0.0;
-      // Far from the whole mesh nothing can be asked: most samples of most postures.
-      if (o < 2 && touching == 0.0 && body.LowerBound(o, sample) > need + 0.01 * height) continue;
+      const double touching = s >= kFirstContactSample && performer.known && clearance < fade
+                                  ? performer.trust * (1.0 - Smoothstep(clearance / fade))
+                                  : 0.0;
+      // Far from an obstacle nothing can be asked: most samples of most postures.
+      const double most = performer.known ? std::min(clearance, margin) : margin;
       SignedDistance now;
-      if (!Measure(state, body, arm, sample, performer, o, now)) continue;
-      const double short_of = need - now.distance;
-      const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
+      if (o < 2) {
+        if (touching == 0.0 && body.LowerBound(o, sample) > most + 0.01 * height) continue;
+        if (!MeasureMesh(body, o, sample, touching > 0.0, memory.entry[s][o], now)) continue;
+      } else if (!MeasureCapsule(state, ObstacleCapsule(state.posed, arm, o), sample,
+                                 performer.direction_ls, touching > 0.0 ? 10.0 * height : most,
+                                 now)) {
+        continue;
+      }
       if (touching > 0.0) {
         rows.Add({s, now.gradient, share * (clearance - now.distance),
                   (other_hand ? kMutualWeight : kContactWeight) * touching});
       }
+      if (now.distance >= most) continue;
+      const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
+      const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
       if (weight > 0.0) rows.Add({s, now.gradient, share * short_of, weight});
     }
   }
@@ -98,7 +136,7 @@ struct HandMove {
   Vec3 move{0.0};
   Vec3 turn{0.0};
 };
-HandMove MoveHand(const AdaptState& state, Limb arm, const Rows& rows) {
+HandMove MoveHand(const AdaptState& state, Limb arm, const ArmSamples& samples, const Rows& rows) {
   const bool can_turn = !state.avatar.skeleton.locked[Index(JointsOf(arm).end)];
   const double length =
       std::max(0.05 * state.scale, state.constants.bone_length[HandBone(FingertipPoint(arm))]);
@@ -109,7 +147,7 @@ HandMove MoveHand(const AdaptState& state, Limb arm, const Rows& rows) {
   for (std::size_t k = 0; k < rows.count; ++k) {
     const Row& row = rows.row[k];
     if (row.sample + 1 < kFirstContactSample) continue;  // the arm's own
-    const Vec3 arm_of = SampleOf(state.avatar, state.posed, arm, row.sample).center - wrist;
+    const Vec3 arm_of = samples[row.sample].center - wrist;
     const Vec3 turn = can_turn ? glm::cross(arm_of, row.normal) : Vec3{0.0};
     equations.Add({row.normal.x, row.normal.y, row.normal.z, turn.x, turn.y, turn.z}, row.value,
                   row.weight);
@@ -120,13 +158,14 @@ HandMove MoveHand(const AdaptState& state, Limb arm, const Rows& rows) {
   return {{x[0], x[1], x[2]}, turn};
 }
 
-ArmMove MoveArm(const AdaptState& state, Limb arm, const Rows& rows) {
+ArmMove MoveArm(const AdaptState& state, Limb arm, const ArmSamples& samples, const Rows& rows) {
   const LimbChain& chain = state.chain[Index(arm)];
   const LimbPosture& posture = state.limb[Index(arm)];
   const LimbPlacement placed = Place(chain, posture);
-  const HandMove hand = MoveHand(state, arm, rows);
+  const HandMove hand = MoveHand(state, arm, samples, rows);
 
-  const Vec3 hinge = placed.base_ws * MeasureFlexion(chain, posture.mid).axis_ls;
+  const Vec3 axis_ls = MeasureFlexion(chain, posture.mid).axis_ls;
+  const Vec3 hinge = placed.base_ws * axis_ls;
   const double reach = chain.Reach();
   NormalEquations<4> equations;
   for (std::size_t k = 0; k < 4; ++k) equations.Damp(k, kArmDamping * reach * reach + 1e-12);
@@ -145,8 +184,7 @@ ArmMove MoveArm(const AdaptState& state, Limb arm, const Rows& rows) {
       anchor = std::max(anchor, row.weight);
       continue;  // through the wrist
     }
-    add(SampleOf(state.avatar, state.posed, arm, row.sample).center, row.sample >= 3, row.normal,
-        row.value, row.weight);
+    add(samples[row.sample].center, row.sample >= 3, row.normal, row.value, row.weight);
   }
   // The wrist stays, the more so the closer the hand is to a contact of its own.
   const double gap = 1.0 / std::max(1e-9, state.egocentric.point[Index(EndPoint(arm))].priority);
@@ -166,7 +204,6 @@ ArmMove MoveArm(const AdaptState& state, Limb arm, const Rows& rows) {
   move.posture = posture;
   const Quat turn = FromRotationVector(shrink * Vec3{x[0], x[1], x[2]});
   move.posture.base = glm::normalize(glm::conjugate(chain.frame_ws) * turn * placed.base_ws);
-  const Vec3 axis_ls = MeasureFlexion(chain, posture.mid).axis_ls;
   move.posture.mid = glm::normalize(FromRotationVector(shrink * x[3] * axis_ls) * posture.mid);
   move.hand_ws = glm::normalize(FromRotationVector(hand.turn) * state.extremity_ws[Index(arm)]);
   return move;
@@ -177,15 +214,20 @@ ArmMove MoveArm(const AdaptState& state, Limb arm, const Rows& rows) {
 void KeepArmsClear(AdaptState& state) {
   if (!state.egocentric.form.clearance || state.settings.clearance_steps <= 0) return;
   const BodyObstacles body(state.avatar, state.posed);
+  std::array<MeshMemory, 2> memory;
   for (int step = 0; step < state.settings.clearance_steps; ++step) {
     std::array<ArmMove, 2> move;
     bool any = false;
     for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
+      ArmSamples samples;
+      for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
+        samples[s] = SampleOf(state.avatar, state.posed, arm, s);
+      }
       Rows rows;
-      CollectRows(state, body, arm, rows);
+      CollectRows(state, body, arm, samples, memory[Index(arm)], rows);
       move[Index(arm)] = {state.limb[Index(arm)], state.extremity_ws[Index(arm)]};
       if (rows.count == 0) continue;
-      move[Index(arm)] = MoveArm(state, arm, rows);
+      move[Index(arm)] = MoveArm(state, arm, samples, rows);
       any = true;
     }
     if (!any) return;

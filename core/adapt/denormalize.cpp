@@ -62,11 +62,11 @@ class LegRegion {
 
 /// Sum of lambda-hat (x + v) over one crude mesh (see MeshRelations).
 Vec3 MeshSum(const AdaptState& state, LimbPoint j, const MeshRelations& relations,
-             const std::array<double, kSampleCount>& weight, std::size_t first, std::size_t end) {
+             const MeshPaths& paths, const std::array<double, kSampleCount>& weight,
+             std::size_t first, std::size_t end) {
   Vec3 position{0.0};
   for (std::size_t s = first; s < end; ++s) position += weight[s] * state.posed.sample[s];
   Vec3 displacement = OwnThickness(state, j) * relations.inside;
-  const BodyPaths& paths = PathsFromBody(j);
   for (std::size_t i = 0; i < paths.length; ++i) {
     displacement += state.constants.bone_length[paths.bone[i]] * relations.along[i];
   }
@@ -188,10 +188,10 @@ void SumBody(AdaptState& state) {
   for (std::size_t k = 0; k < points; ++k) {
     const auto j = static_cast<LimbPoint>(k);
     const PointCoordinates& coordinates = state.egocentric.point[k];
-    const Vec3 trunk =
-        MeshSum(state, j, coordinates.trunk, coordinates.sample, 0, kTrunkSampleCount);
-    const Vec3 head =
-        MeshSum(state, j, coordinates.head, coordinates.sample, kTrunkSampleCount, kSampleCount);
+    const Vec3 trunk = MeshSum(state, j, coordinates.trunk, PathsFromTrunk(j), coordinates.sample,
+                               0, kTrunkSampleCount);
+    const Vec3 head = MeshSum(state, j, coordinates.head, PathsFromHead(j), coordinates.sample,
+                              kTrunkSampleCount, kSampleCount);
     BodySum& sum = state.body_sum[k];
     sum = {trunk + head, coordinates.trunk.importance + coordinates.head.importance, Vec3{0.0}};
     if (!IsArm(LimbOf(j))) continue;

@@ -15,11 +15,6 @@ constexpr double kMaxFlexion = Radians(172.0);
 /// How far the canonical hinge pulls the flexion axis, as a sine: it rules below 20 degrees.
 constexpr double kHingeWeight = 0.35;
 
-bool HasBones(const LimbChain& chain) {
-  return glm::dot(chain.upper_ls, chain.upper_ls) > 0.0 &&
-         glm::dot(chain.lower_ls, chain.lower_ls) > 0.0;
-}
-
 /// Fades a direction out where what defines it is shorter than `scale`.
 double Trust(double length, double scale) {
   const double l2 = length * length;
@@ -39,7 +34,7 @@ double Signed(double required, double captured) {
 
 /// Mid rotation with the angle between the bones brought to `cosine`.
 Quat FlexTo(const LimbChain& chain, const Quat& mid, double cosine) {
-  if (chain.mid_locked || !HasBones(chain)) return mid;
+  if (chain.mid_locked || !chain.has_bones) return mid;
   const Flexion flexion = MeasureFlexion(chain, mid);
   if (flexion.in_plane < 1e-6) return mid;  // the lower bone lies along the hinge: nothing turns it
   const double limit = std::max(kMaxFlexion, chain.captured_flexion);
@@ -101,10 +96,15 @@ LimbChain MakeChain(const Skeleton& skeleton, Limb limb, const Vec3& base_ws, co
   chain.base_locked = skeleton.locked[Index(joints.base)];
   chain.mid_locked = skeleton.locked[Index(joints.mid)];
   chain.reach_softness = reach_softness;
-  if (HasBones(chain)) {
-    const Vec3 upper = glm::normalize(chain.upper_ls);
-    const Vec3 lower = captured.mid * glm::normalize(chain.lower_ls);
-    const Vec3 off = lower - upper;
+  chain.upper_length = glm::length(chain.upper_ls);
+  chain.lower_length = glm::length(chain.lower_ls);
+  chain.has_bones = chain.upper_length > 0.0 && chain.lower_length > 0.0;
+  if (chain.has_bones) {
+    chain.upper_unit = chain.upper_ls / chain.upper_length;
+    chain.lower_unit = chain.lower_ls / chain.lower_length;
+    chain.hinge_across =
+        NormalizedOr(Perpendicular(chain.hinge_ls, chain.upper_unit), chain.hinge_ls);
+    const Vec3 off = captured.mid * chain.lower_unit - chain.upper_unit;
     chain.captured_deficit = 0.5 * glm::dot(off, off);  // 1 - cos, exact near straight
     chain.captured_flexion = MeasureFlexion(chain, captured.mid).angle;
   }
@@ -112,11 +112,11 @@ LimbChain MakeChain(const Skeleton& skeleton, Limb limb, const Vec3& base_ws, co
 }
 
 Flexion MeasureFlexion(const LimbChain& chain, const Quat& mid) {
-  if (!HasBones(chain)) return {chain.hinge_ls, 0.0, 1.0};
-  const Vec3 upper = glm::normalize(chain.upper_ls);
-  const Vec3 lower = mid * glm::normalize(chain.lower_ls);
+  if (!chain.has_bones) return {chain.hinge_ls, 0.0, 1.0};
+  const Vec3& upper = chain.upper_unit;
+  const Vec3 lower = mid * chain.lower_unit;
   const Vec3 normal = glm::cross(upper, lower);
-  const Vec3 hinge = NormalizedOr(Perpendicular(chain.hinge_ls, upper), chain.hinge_ls);
+  const Vec3& hinge = chain.hinge_across;
   Flexion flexion;
   flexion.axis_ls = NormalizedOr(normal + kHingeWeight * hinge, hinge);
   const double along = glm::dot(upper, lower);
@@ -136,9 +136,9 @@ LimbPosture ReachEnd(const LimbChain& chain, const LimbPosture& posture, const V
   LimbPosture reached = posture;
   const Vec3 to_target = end_target - chain.base_ws;
   const double distance = glm::length(to_target);
-  if (HasBones(chain)) {
-    const double upper = glm::length(chain.upper_ls);
-    const double lower = glm::length(chain.lower_ls);
+  if (chain.has_bones) {
+    const double upper = chain.upper_length;
+    const double lower = chain.lower_length;
     // distance^2 = (upper + lower)^2 - 2 upper lower (1 - cos)
     const double reach = upper + lower;
     const double deficit = (reach - distance) * (reach + distance) / (2.0 * upper * lower);
@@ -173,12 +173,12 @@ LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const
 LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                        const Vec3& end_target) {
   LimbPosture reached = posture;
-  if (!HasBones(chain)) return ReachEnd(chain, posture, end_target);
+  if (!chain.has_bones) return ReachEnd(chain, posture, end_target);
   const Vec3 to_mid = mid_target - chain.base_ws;
   const double distance = glm::length(to_mid);
   const Vec3 upper_now = glm::normalize(Place(chain, reached).mid - chain.base_ws);
   if (distance > 1e-9) {
-    const double near = 0.2 * glm::length(chain.upper_ls);
+    const double near = 0.2 * chain.upper_length;
     reached.base = TurnBase(chain, reached.base, upper_now, to_mid / distance,
                             distance > near ? 1.0 : Smoothstep(distance / near));
   }
@@ -196,7 +196,7 @@ LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const
 
   const double now = glm::dot(upper, glm::normalize(placed.end - placed.mid));
   const double cosine = glm::dot(upper, wanted);
-  const double near = 0.1 * glm::length(chain.lower_ls);
+  const double near = 0.1 * chain.lower_length;
   const double trust = end_distance > near ? 1.0 : Smoothstep(end_distance / near);
   reached.mid = FlexTo(chain, reached.mid, glm::mix(now, cosine, trust));
   return reached;

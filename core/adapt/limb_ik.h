@@ -13,13 +13,20 @@ struct LimbChain {
   Vec3 upper_ls{0.0};         // base to mid, canonical pose
   Vec3 lower_ls{0.0};         // mid to end, canonical pose
   Vec3 hinge_ls{0.0};         // canonical flexion axis
+  // The same bones as unit vectors and lengths; zero vectors for a limb without bones.
+  Vec3 upper_unit{0.0};
+  Vec3 lower_unit{0.0};
+  double upper_length = 0.0;
+  double lower_length = 0.0;
+  Vec3 hinge_across{0.0};  // unit: the part of the hinge at right angles to the upper bone
+  bool has_bones = false;
   bool base_locked = false;
   bool mid_locked = false;
   double captured_deficit = 0.0;  // 1 - cos(flexion) of the captured joint angles
   double captured_flexion = 0.0;  // signed, radians
   double reach_softness = 0.0;    // AdaptSettings
 
-  double Reach() const { return glm::length(upper_ls) + glm::length(lower_ls); }
+  double Reach() const { return upper_length + lower_length; }
 };
 
 /// Local rotations of the base and mid joints.

@@ -30,7 +30,7 @@ struct NormalizedDistance {
 struct MeshRelations {
   double importance = 0.0;  // sum of lambda-hat
   Vec3 inside{0.0};         // of lambda-hat v-hat's direction, as far as the thickness fills it
-  std::array<Vec3, kMaxPathLength> along{};  // in the order of BodyPaths::bone
+  std::array<Vec3, kMaxPathLength> along{};  // in the order of MeshPaths::bone
 };
 
 /// One tuple of equation 6 against a limb's capsule.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/egocentric/kinematic_path.h"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace ego {
 namespace {
 
@@ -58,19 +61,39 @@ constexpr PathTable MakeTable() {
 
 constexpr PathTable kPathTable = MakeTable();
 
-BodyPaths MakeBodyPaths(LimbPoint to) {
-  BodyPaths paths;
-  for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    const HumanoidJoint from = ParentJoint(t);
-    const KinematicPath& path = PathBetween(from, to);
+MeshPaths MakeMeshPaths(std::size_t first, std::size_t end, LimbPoint to) {
+  std::array<HumanoidJoint, kTriangleCount> from{};
+  std::size_t count = 0;
+  for (std::size_t t = first; t < end; ++t) from[count++] = ParentJoint(t);
+  std::stable_sort(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count),
+                   [to](HumanoidJoint a, HumanoidJoint b) {
+                     return PathBetween(a, to).length < PathBetween(b, to).length;
+                   });
+  MeshPaths paths;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t joint = Index(from[k]);
+    const KinematicPath& path = PathBetween(from[k], to);
+    std::size_t last = 0;
     for (std::size_t i = 0; i < path.length; ++i) {
       std::size_t column = 0;
       while (column < paths.length && paths.bone[column] != path.bone[i]) ++column;
       if (column == paths.length) paths.bone[paths.length++] = path.bone[i];
-      paths.on_path[Index(from)][column] = 1.0;
+      paths.on_path[joint][column] = 1.0;
+      last = std::max(last, column + 1);
     }
+    paths.used[joint] = static_cast<std::uint8_t>((last + 1) / 2 * 2);
   }
   return paths;
+}
+
+using AllMeshPaths = std::array<MeshPaths, kLimbPointCount>;
+
+AllMeshPaths MakeAllMeshPaths(std::size_t first, std::size_t end) {
+  AllMeshPaths all;
+  for (std::size_t j = 0; j < kLimbPointCount; ++j) {
+    all[j] = MakeMeshPaths(first, end, static_cast<LimbPoint>(j));
+  }
+  return all;
 }
 
 }  // namespace
@@ -79,14 +102,13 @@ const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to) {
   return kPathTable[Index(from)][Index(to)];
 }
 
-const BodyPaths& PathsFromBody(LimbPoint to) {
-  static const std::array<BodyPaths, kLimbPointCount> kAll = [] {
-    std::array<BodyPaths, kLimbPointCount> all;
-    for (std::size_t j = 0; j < kLimbPointCount; ++j) {
-      all[j] = MakeBodyPaths(static_cast<LimbPoint>(j));
-    }
-    return all;
-  }();
+const MeshPaths& PathsFromTrunk(LimbPoint to) {
+  static const AllMeshPaths kAll = MakeAllMeshPaths(0, kTrunkTriangleCount);
+  return kAll[Index(to)];
+}
+
+const MeshPaths& PathsFromHead(LimbPoint to) {
+  static const AllMeshPaths kAll = MakeAllMeshPaths(kTrunkTriangleCount, kTriangleCount);
   return kAll[Index(to)];
 }
 

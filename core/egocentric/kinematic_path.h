@@ -31,15 +31,18 @@ struct KinematicPath {
 /// Feet and toes carry no reference point; from them the path is empty.
 const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to);
 
-/// The paths from all triangles of trunk and head to one limb point, side by side: all bones that
-/// any of them runs along, and which of them each does.
-struct BodyPaths {
+/// The paths from all triangles of one crude mesh to one limb point, side by side: all bones that
+/// any of them runs along, the shortest path's first, and which of them each does.
+struct MeshPaths {
   std::array<std::uint8_t, kMaxPathLength> bone{};
   std::size_t length = 0;
+  /// Bones up to the last one of the path from this joint, rounded up to an even number.
+  std::array<std::uint8_t, kJointCount> used{};
   /// 1 where the path from this joint has the bone, else 0.
   std::array<std::array<double, kMaxPathLength>, kJointCount> on_path{};
 };
-const BodyPaths& PathsFromBody(LimbPoint to);
+const MeshPaths& PathsFromTrunk(LimbPoint to);
+const MeshPaths& PathsFromHead(LimbPoint to);
 
 /// Added to every cosine, so that tau stays above zero where all bones are at right angles to the
 /// displacement and the ratio of two bodies' tau is always a convex mean of their bones' ratios.

@@ -52,7 +52,7 @@ struct Importance {
 
 /// The bones to one limb point, component by component, so that all are treated at once.
 struct PathBones {
-  PathBones(const Context& context, LimbPoint j) : paths(PathsFromBody(j)) {
+  PathBones(const Context& context, const MeshPaths& all) : paths(all) {
     for (std::size_t i = 0; i < paths.length; ++i) {
       const Vec3& direction = context.posed.bone_direction[paths.bone[i]];
       x[i] = direction.x;
@@ -61,7 +61,7 @@ struct PathBones {
       length[i] = context.constants.bone_length[paths.bone[i]];
     }
   }
-  const BodyPaths& paths;
+  const MeshPaths& paths;
   std::array<double, kMaxPathLength> x{};
   std::array<double, kMaxPathLength> y{};
   std::array<double, kMaxPathLength> z{};
@@ -79,7 +79,7 @@ struct MeshSum {
 /// Relates a point to all triangles of one mesh; `weight` are their importances before
 /// normalisation.
 void RelateToMesh(const Context& context, std::size_t first, std::size_t count, LimbPoint j,
-                  const PathBones& bones, Importance& importance,
+                  const MeshPaths& paths, Importance& importance,
                   std::array<double, kTriangleCount>& weight, PointCoordinates& out,
                   MeshRelations& relations) {
   const Vec3& p = context.posed.point[Index(j)];
@@ -87,6 +87,7 @@ void RelateToMesh(const Context& context, std::size_t first, std::size_t count, 
       context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
   const double softness = context.scale * context.settings.orthogonality_softness;
   const double least_tau = 1e-9 * context.body.height;
+  const PathBones bones(context, paths);
   MeshSum sum;
   for (std::size_t t = first; t < first + count; ++t) {
     const Triangle& triangle = context.posed.triangle[t];
@@ -107,18 +108,20 @@ void RelateToMesh(const Context& context, std::size_t first, std::size_t count, 
     sum.inside += (lambda * inside) * direction;
 
     // Equations 4 and 5: the gap over tau, spread over the bones again.
-    const std::array<double, kMaxPathLength>& on_path = bones.paths.on_path[Index(ParentJoint(t))];
+    const std::size_t parent = Index(ParentJoint(t));
+    const std::size_t used = bones.paths.used[parent];
+    const std::array<double, kMaxPathLength>& on_path = bones.paths.on_path[parent];
     std::array<double, kMaxPathLength> factor;
     double tau = 0.0;
-    for (std::size_t i = 0; i < kMaxPathLength; ++i) {
+    for (std::size_t i = 0; i < used; ++i) {
       factor[i] = on_path[i] *
                   (kLeastCosine + std::abs(direction.x * bones.x[i] + direction.y * bones.y[i] +
                                            direction.z * bones.z[i]));
     }
-    for (std::size_t i = 0; i < kMaxPathLength; ++i) tau += bones.length[i] * factor[i];
+    for (std::size_t i = 0; i < used; ++i) tau += bones.length[i] * factor[i];
     const double gap = std::max(0.0, reach - filled) / std::max(tau, least_tau);
     const Vec3 step = (lambda * gap) * direction;
-    for (std::size_t i = 0; i < kMaxPathLength; ++i) {
+    for (std::size_t i = 0; i < used; ++i) {
       sum.x[i] += factor[i] * step.x;
       sum.y[i] += factor[i] * step.y;
       sum.z[i] += factor[i] * step.z;
@@ -179,13 +182,13 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
   const Limb limb = LimbOf(j);
   Importance importance{context.scale * settings.surface_epsilon,
                         context.scale * settings.gamma_epsilon};
-  const PathBones bones(context, j);
   out.sample = {};
   out.trunk = {};
   out.head = {};
-  RelateToMesh(context, 0, kTrunkTriangleCount, j, bones, importance, triangle, out, out.trunk);
-  RelateToMesh(context, kTrunkTriangleCount, kTriangleCount - kTrunkTriangleCount, j, bones,
-               importance, triangle, out, out.head);
+  RelateToMesh(context, 0, kTrunkTriangleCount, j, PathsFromTrunk(j), importance, triangle, out,
+               out.trunk);
+  RelateToMesh(context, kTrunkTriangleCount, kTriangleCount - kTrunkTriangleCount, j,
+               PathsFromHead(j), importance, triangle, out, out.head);
   out.mesh_importance_max = importance.max;
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const LimbSegment other = OtherSegment(limb, slot);

@@ -48,13 +48,15 @@ SignedDistance SmoothMeshDistance(std::span<const Triangle> mesh, const Vec3& p,
     const Vec3 from_center = p - triangle.center;
     const double bound = horizon + triangle.reach;
     if (glm::dot(from_center, from_center) > bound * bound) continue;
+    const double height = glm::dot(triangle.normal, from_center);
+    if (std::abs(height) > horizon) continue;
     const Vec3 away = p - AtBarycentric(triangle, ClosestOnTriangle(triangle, p));
     const double square = glm::dot(away, away);
     const double ratio = e2 / (square + e2);
     const double ratio2 = ratio * ratio;
     const double weight = triangle.area * ratio2 * ratio2;
     weight_sum += weight;
-    plane_sum += weight * glm::dot(triangle.normal, p - triangle.a);
+    plane_sum += weight * height;
     square_sum += weight * square;
     normal_sum += weight * triangle.normal;
     away_sum += weight * away;
