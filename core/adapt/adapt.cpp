@@ -34,8 +34,9 @@ LimbPosture AdaptLimb(const AdaptState& state, Limb limb, const LimbTargets& tar
   const LimbChain& chain = state.chain[Index(limb)];
   const LimbPosture& posture = state.limb[Index(limb)];
   const LimbPlacement placed = Place(chain, posture);
+  const LimbPosture& start = state.settings.start_from_captured ? chain.captured : posture;
   const LimbPosture attracted =
-      BlendedIk(chain, posture, glm::mix(placed.mid, targets.mid, w),
+      BlendedIk(chain, start, glm::mix(placed.mid, targets.mid, w),
                 glm::mix(placed.end, targets.end, w), state.gamma[Index(limb)]);
   return with_planes ? EnsureSpatialOrder(state, limb, attracted, w) : attracted;
 }

@@ -22,6 +22,10 @@ struct AdaptSettings {
   /// Metres added to the inverse importances of the arms in gamma (appendix C). 0: as published;
   /// larger: gamma turns slower and ends between both solutions.
   double gamma_softness = 0.020;
+  /// Whether every pass of the limb IK starts from the captured angles. Off: from where the last
+  /// one ended; twists that are bounded one by one then add up, and near a half turn, where the way
+  /// round is undecided, every pass doubles a deviation.
+  bool start_from_captured = true;
   /// Whether wrists that relate to each other are solved together and limbs of a pair in one step.
   /// Off: one limb after the other, as the text has it; left and right then differ.
   bool solve_pairs = true;
@@ -58,6 +62,7 @@ struct AdaptSettings {
     paper.plane_ramp = 0.0;
     paper.reach_softness = 0.0;
     paper.gamma_softness = 0.0;
+    paper.start_from_captured = false;
     paper.solve_pairs = false;
     paper.restore_ends = false;
     paper.hands_keep_direction = false;

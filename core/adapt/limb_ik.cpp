@@ -96,6 +96,7 @@ LimbChain MakeChain(const Skeleton& skeleton, Limb limb, const Vec3& base_ws, co
   chain.base_locked = skeleton.locked[Index(joints.base)];
   chain.mid_locked = skeleton.locked[Index(joints.mid)];
   chain.reach_softness = reach_softness;
+  chain.captured = captured;
   chain.upper_length = glm::length(chain.upper_ls);
   chain.lower_length = glm::length(chain.lower_ls);
   chain.has_bones = chain.upper_length > 0.0 && chain.lower_length > 0.0;

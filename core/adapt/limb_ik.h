@@ -6,6 +6,12 @@
 
 namespace ego {
 
+/// Local rotations of the base and mid joints.
+struct LimbPosture {
+  Quat base = kIdentity;
+  Quat mid = kIdentity;
+};
+
 /// A limb's two joints as they can turn: what does not change during the limb loop.
 struct LimbChain {
   Vec3 base_ws{0.0};          // shoulder or hip
@@ -22,17 +28,12 @@ struct LimbChain {
   bool has_bones = false;
   bool base_locked = false;
   bool mid_locked = false;
+  LimbPosture captured;           // the captured joint angles
   double captured_deficit = 0.0;  // 1 - cos(flexion) of the captured joint angles
   double captured_flexion = 0.0;  // signed, radians
   double reach_softness = 0.0;    // AdaptSettings
 
   double Reach() const { return upper_length + lower_length; }
-};
-
-/// Local rotations of the base and mid joints.
-struct LimbPosture {
-  Quat base = kIdentity;
-  Quat mid = kIdentity;
 };
 
 /// Where a posture puts the limb, world space.
