@@ -29,42 +29,48 @@ Vec3 OffsetOf(const Bundle& bundle, const FittedMarker& marker) {
          marker.along * BoneEndShift(marker.joint, bundle.lengths) + marker.shift_ls;
 }
 
-/// For each joint and length, the change of a point carried by the joint (its own bone's far end
-/// counted by `along`) per metre: a list of (joint whose parent frame turns it, direction).
+/// The change of a marker per metre of one length.
 struct LengthColumn {
   std::size_t parameter = 0;
-  std::array<LengthParameter::Shift, 6> shifts{};  // joint: the frame that carries the shift
+  // Joints before it, in their parents' frames; `joint` is the frame.
+  std::array<LengthParameter::Shift, 6> shifts{};
   std::size_t count = 0;
+  Vec3 offset_ls{0.0};  // of the marker's own offset, where its bone's far end moves
+  Vec3 child_ls{0.0};   // of the child's offset
 };
 
-std::vector<LengthColumn> LengthColumns(HumanoidJoint joint, double along) {
+std::vector<LengthColumn> LengthColumns(const FittedMarker& marker) {
   std::array<bool, kJointCount> on_path{};
-  for (std::size_t j = Index(joint); j != 0; j = Index(kParent[j])) on_path[j] = true;
-  const HumanoidJoint end = BoneEnd(joint);
+  for (std::size_t j = Index(marker.joint); j != 0; j = Index(kParent[j])) on_path[j] = true;
+  const HumanoidJoint end = BoneEnd(marker.joint);
   std::vector<LengthColumn> columns;
   for (std::size_t k = 0; k < kLengthCount; ++k) {
     const LengthParameter& p = LengthParameters()[k];
     LengthColumn column;
     column.parameter = k;
+    bool moves = false;
     for (std::size_t s = 0; s < p.shift_count; ++s) {
-      const HumanoidJoint moved = p.shifts[s].joint;
-      if (on_path[Index(moved)]) {
-        column.shifts[column.count++] = {Parent(moved), p.shifts[s].per_metre};
-      } else if (end != joint && moved == end && along > 0.0) {
-        column.shifts[column.count++] = {joint, along * p.shifts[s].per_metre};
-      }
+      const auto& [moved, per_metre] = p.shifts[s];
+      if (on_path[Index(moved)]) column.shifts[column.count++] = {Parent(moved), per_metre};
+      if (end != marker.joint && moved == end) column.offset_ls += marker.along * per_metre;
+      if (moved == marker.child) column.child_ls += per_metre;
+      moves = moves || on_path[Index(moved)] || moved == end || moved == marker.child;
     }
-    if (column.count > 0) columns.push_back(column);
+    if (moves) columns.push_back(column);
   }
   return columns;
 }
+
+// Unknowns of one marker: its place and, where they are estimated, its skin shares.
+constexpr std::size_t kPlace = 3;
 
 class Adjuster {
  public:
   Adjuster(Bundle& bundle, const BundleOptions& options)
       : bundle_(bundle),
         options_(options),
-        shared_(kLengthCount + 3 * bundle.markers.size()),
+        share_index_(IndexShares(bundle, options)),
+        shared_(CountShared()),
         frames_(bundle.frames.size()),
         h_ss_(shared_ * shared_),
         g_s_(shared_),
@@ -75,7 +81,7 @@ class Adjuster {
         frame_equations_(frames_),
         factor_(frames_) {
     for (const FittedMarker& marker : bundle.markers) {
-      length_columns_.push_back(LengthColumns(marker.joint, marker.along));
+      length_columns_.push_back(LengthColumns(marker));
     }
   }
 
@@ -102,6 +108,30 @@ class Adjuster {
   }
 
  private:
+  using ShareIndex = std::array<std::size_t, kSkinShareCount>;
+  static constexpr std::size_t kHeld = static_cast<std::size_t>(-1);
+
+  /// Places of the skin shares among the shared unknowns, after lengths and marker places.
+  static std::vector<ShareIndex> IndexShares(const Bundle& bundle, const BundleOptions& options) {
+    std::vector<ShareIndex> all(bundle.markers.size());
+    std::size_t next = kLengthCount + kPlace * bundle.markers.size();
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      for (std::size_t i = 0; i < kSkinShareCount; ++i) {
+        const bool free = options.skin && bundle.markers[m].share_sigma[i] > 0.0;
+        all[m][i] = free ? next++ : kHeld;
+      }
+    }
+    return all;
+  }
+
+  std::size_t CountShared() const {
+    std::size_t count = kLengthCount + kPlace * share_index_.size();
+    for (const ShareIndex& index : share_index_) {
+      for (const std::size_t i : index) count += i == kHeld ? 0 : 1;
+    }
+    return count;
+  }
+
   double OffsetSigma(const FittedMarker& marker) const {
     return marker.sigma * bundle_.scale * options_.offset_sigma_scale;
   }
@@ -121,6 +151,11 @@ class Adjuster {
     for (const FittedMarker& marker : bundle.markers) {
       const double sigma = OffsetSigma(marker);
       cost += 0.5 * glm::dot(marker.shift_ls, marker.shift_ls) / (sigma * sigma);
+      for (std::size_t i = 0; i < kSkinShareCount; ++i) {
+        if (marker.share_sigma[i] <= 0.0) continue;
+        const double r = marker.share[i] / marker.share_sigma[i];
+        cost += 0.5 * std::log1p(r * r);
+      }
     }
     return cost;
   }
@@ -156,33 +191,56 @@ class Adjuster {
     for (std::size_t m = 0; m < bundle_.markers.size(); ++m) {
       const double sigma = OffsetSigma(bundle_.markers[m]);
       for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t i = kLengthCount + 3 * m + static_cast<std::size_t>(axis);
+        const std::size_t i = kLengthCount + kPlace * m + static_cast<std::size_t>(axis);
         diagonal(i) += 1.0 / (sigma * sigma);
         g_s_[i] += bundle_.markers[m].shift_ls[axis] / (sigma * sigma);
+      }
+      for (std::size_t i = 0; i < kSkinShareCount; ++i) {
+        const std::size_t unknown = share_index_[m][i];
+        if (unknown == kHeld) continue;
+        const double share_sigma = bundle_.markers[m].share_sigma[i];
+        const double r = bundle_.markers[m].share[i] / share_sigma;
+        // Cauchy: skin that moves with its bone stays so, skin that does not is not held back.
+        const double weight = 1.0 / (share_sigma * share_sigma * (1.0 + r * r));
+        diagonal(unknown) += weight;
+        g_s_[unknown] += weight * bundle_.markers[m].share[i];
       }
     }
   }
 
   /// The shared unknowns' part of one visible marker.
-  void AddShared(std::size_t f, std::size_t m, const ModelPose& pose, const Vec3& error,
+  void AddShared(std::size_t f, std::size_t m, const BoundMarker& marker,
+                 const CarriedMarker& placed, const ModelPose& pose, const Vec3& error,
                  double weight, std::span<const Vec3> pose_column) {
-    std::array<Vec3, kLengthCount + 3> column;
-    std::array<std::size_t, kLengthCount + 3> index{};
+    constexpr std::size_t kMost = kLengthCount + kPlace + kSkinShareCount;
+    std::array<Vec3, kMost> column;
+    std::array<std::size_t, kMost> index{};
     std::size_t n = 0;
+    const Mat3 frame = OffsetJacobian(marker, placed, pose);
+    const double child = marker.Share(SkinShare::kWithChild);
     for (const LengthColumn& length : length_columns_[m]) {
-      Vec3 sum{0.0};
+      Vec3 sum = frame * length.offset_ls;
       for (std::size_t s = 0; s < length.count; ++s) {
         sum += pose.Rotation(length.shifts[s].joint) * length.shifts[s].per_metre;
+      }
+      if (child != 0.0) {
+        sum += child * (pose.Rotation(marker.joint) * length.child_ls -
+                        pose.Rotation(marker.child) * length.child_ls);
       }
       column[n] = sum;
       index[n++] = length.parameter;
     }
-    const Mat3 frame = glm::mat3_cast(pose.Rotation(bundle_.markers[m].joint));
     for (int axis = 0; axis < 3; ++axis) {
       column[n] = frame[axis];
-      index[n++] = kLengthCount + 3 * m + static_cast<std::size_t>(axis);
+      index[n++] = kLengthCount + kPlace * m + static_cast<std::size_t>(axis);
     }
-    const std::span<const std::uint8_t> chain = Chain(bundle_.markers[m].joint);
+    const std::array<Vec3, kSkinShareCount> by_share = ShareJacobian(marker, placed, pose);
+    for (std::size_t i = 0; i < kSkinShareCount; ++i) {
+      if (share_index_[m][i] == kHeld) continue;
+      column[n] = by_share[i];
+      index[n++] = share_index_[m][i];
+    }
+    const std::span<const std::uint8_t> chain = Chain(marker);
     double* h_fs = h_fs_.data() + f * kPoseDof * shared_;
     for (std::size_t a = 0; a < n; ++a) {
       const Vec3 weighted = weight * column[a];
@@ -218,11 +276,11 @@ class Adjuster {
       for (std::size_t m = 0; m < model.markers.size(); ++m) {
         const BoundMarker& marker = model.markers[m];
         if (!frame.visible[marker.label]) continue;
-        const Vec3 point =
-            pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls;
-        const Vec3 error = point - frame.position_ws[marker.label];
-        PointJacobian(marker.joint, point, pose, axis_ws, column);
-        AddShared(f, m, pose, error, options_.loss.Weight(glm::dot(error, error)), column);
+        const CarriedMarker placed = Carry(marker, pose);
+        const Vec3 error = placed.point_ws - frame.position_ws[marker.label];
+        MarkerJacobian(marker, placed, pose, axis_ws, column);
+        AddShared(f, m, marker, placed, pose, error, options_.loss.Weight(glm::dot(error, error)),
+                  column);
       }
     }
     return cost;
@@ -263,7 +321,10 @@ class Adjuster {
     for (std::size_t m = 0; m < next.markers.size(); ++m) {
       for (int axis = 0; axis < 3; ++axis) {
         next.markers[m].shift_ls[axis] +=
-            step_s_[kLengthCount + 3 * m + static_cast<std::size_t>(axis)];
+            step_s_[kLengthCount + kPlace * m + static_cast<std::size_t>(axis)];
+      }
+      for (std::size_t i = 0; i < kSkinShareCount; ++i) {
+        if (share_index_[m][i] != kHeld) next.markers[m].share[i] += step_s_[share_index_[m][i]];
       }
     }
     for (std::size_t f = 0; f < frames_; ++f) {
@@ -285,6 +346,7 @@ class Adjuster {
 
   Bundle& bundle_;
   BundleOptions options_;
+  std::vector<ShareIndex> share_index_;
   std::size_t shared_;
   std::size_t frames_;
   std::vector<double> h_ss_;
@@ -305,7 +367,8 @@ MarkerModel ModelOf(const Bundle& bundle) {
   model.skeleton = SkeletonOf(bundle.scale, bundle.lengths);
   model.markers.reserve(bundle.markers.size());
   for (const FittedMarker& marker : bundle.markers) {
-    model.markers.push_back({marker.label, marker.joint, OffsetOf(bundle, marker)});
+    model.markers.push_back(
+        {marker.label, marker.joint, OffsetOf(bundle, marker), marker.child, marker.share});
   }
   return model;
 }

@@ -15,10 +15,13 @@ namespace ego {
 struct FittedMarker {
   std::size_t label = 0;
   HumanoidJoint joint = HumanoidJoint::kHips;
-  Vec3 template_offset{0.0};  // from the joint, template size
-  double along = 0.0;         // AlongBone of it
-  double sigma = 0.02;        // spread of real placements, template size
-  Vec3 shift_ls{0.0};         // found so far: beyond the scaled template, metres
+  Vec3 template_offset{0.0};                   // from the joint, template size
+  double along = 0.0;                          // AlongBone of it
+  double sigma = 0.02;                         // spread of real placements, template size
+  Vec3 shift_ls{0.0};                          // found so far: beyond the scaled template, metres
+  HumanoidJoint child = HumanoidJoint::kHips;  // whose bone may draw its skin along; hips: none
+  SkinShares share{};                          // found so far
+  SkinShares share_sigma{};                    // scale of their prior (Cauchy); 0: held at zero
 };
 
 /// Unknowns of the global fit: lengths and marker places shared by all frames, one posture each.
@@ -35,6 +38,7 @@ struct BundleOptions {
   Priors priors;  // of each posture
   double symmetry_sigma = 0.002;
   double offset_sigma_scale = 1.0;
+  bool skin = false;  // whether the markers' skin shares are estimated
   int max_iterations = 10;
 };
 

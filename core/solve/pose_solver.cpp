@@ -118,7 +118,7 @@ double MeanResidual(const MarkerModel& model, const MarkerFrame& frame, const Mo
   std::size_t count = 0;
   for (const BoundMarker& marker : model.markers) {
     if (!frame.visible[marker.label]) continue;
-    const Vec3 point = pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls;
+    const Vec3 point = MarkerPosition(marker, pose);
     sum += std::min(cap, glm::distance(point, frame.position_ws[marker.label]));
     ++count;
   }

@@ -9,15 +9,9 @@
 #include "core/markers/marker_take.h"
 #include "core/skeleton/pose.h"
 #include "core/skeleton/skeleton.h"
+#include "core/solve/bound_marker.h"
 
 namespace ego {
-
-/// A marker's fixed place on a performer's skeleton.
-struct BoundMarker {
-  std::size_t label = 0;                       // index into the frames' points
-  HumanoidJoint joint = HumanoidJoint::kHips;  // carries it
-  Vec3 offset_ls{0.0};                         // from the joint, canonical pose, metres
-};
 
 /// A performer as the solver sees one: bones and where the markers sit on them.
 struct MarkerModel {
@@ -26,11 +20,11 @@ struct MarkerModel {
 };
 
 struct PoseSolverOptions {
-  double sigma = 0.008;                   // expected marker error, one axis, metres
-  double outlier_factor = 5.0;            // errors beyond this many sigmas lose their pull
+  double sigma = 0.008;                  // expected marker error, one axis, metres
+  double outlier_factor = 5.0;           // errors beyond this many sigmas lose their pull
   double step_per_frame = Radians(8.0);  // soft temporal prior, per joint and axis; 0: none
-  int max_iterations = 12;                // per frame once started
-  double restart_residual = 0.03;         // mean residual that triggers a fresh start, metres
+  int max_iterations = 12;               // per frame once started
+  double restart_residual = 0.03;        // mean residual that triggers a fresh start, metres
 };
 
 /// What one solve came to.

@@ -176,9 +176,7 @@ double MarkerCost(const MarkerModel& model, const MarkerFrame& frame, const Mode
   double cost = 0.0;
   for (const BoundMarker& marker : model.markers) {
     if (!frame.visible[marker.label]) continue;
-    const Vec3 error = pose.Position(marker.joint) +
-                       pose.Rotation(marker.joint) * marker.offset_ls -
-                       frame.position_ws[marker.label];
+    const Vec3 error = MarkerPosition(marker, pose) - frame.position_ws[marker.label];
     cost += loss.Cost(glm::dot(error, error));
   }
   return cost;
@@ -192,13 +190,13 @@ double AddMarkers(const MarkerModel& model, const MarkerFrame& frame, const Mode
   double cost = 0.0;
   for (const BoundMarker& marker : model.markers) {
     if (!frame.visible[marker.label]) continue;
-    const Vec3 point = pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls;
-    const Vec3 error = point - frame.position_ws[marker.label];
+    const CarriedMarker placed = Carry(marker, pose);
+    const Vec3 error = placed.point_ws - frame.position_ws[marker.label];
     const double squared = glm::dot(error, error);
     const double weight = loss.Weight(squared);
     cost += loss.Cost(squared);
-    PointJacobian(marker.joint, point, pose, axis_ws, column);
-    const std::span<const std::uint8_t> chain = Chain(marker.joint);
+    MarkerJacobian(marker, placed, pose, axis_ws, column);
+    const std::span<const std::uint8_t> chain = Chain(marker);
     for (std::size_t r = 0; r < chain.size(); ++r) {
       const Vec3 weighted = weight * column[r];
       equations.g[chain[r]] += glm::dot(weighted, error);
@@ -207,18 +205,6 @@ double AddMarkers(const MarkerModel& model, const MarkerFrame& frame, const Mode
     }
   }
   return cost;
-}
-
-void PointJacobian(HumanoidJoint joint, const Vec3& point_ws, const ModelPose& pose,
-                   const std::array<Vec3, kPoseDof>& axis_ws,
-                   std::array<Vec3, kPoseDof>& column_ws) {
-  const std::span<const std::uint8_t> chain = Chain(joint);
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    const Dof& dof = Dofs()[chain[i]];
-    column_ws[i] = dof.kind == DofKind::kTranslation
-                       ? axis_ws[chain[i]]
-                       : glm::cross(axis_ws[chain[i]], point_ws - pose.Position(dof.joint));
-  }
 }
 
 ModelPose Placed(const Skeleton& skeleton, const Posture& posture) {

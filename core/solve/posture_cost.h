@@ -57,11 +57,6 @@ double MarkerCost(const MarkerModel& model, const MarkerFrame& frame, const Mode
 double AddMarkers(const MarkerModel& model, const MarkerFrame& frame, const ModelPose& pose,
                   const MarkerLoss& loss, NormalEquations& equations);
 
-/// d(point) / d(dof) of a point carried by `joint`, in the order of Chain(joint).
-void PointJacobian(HumanoidJoint joint, const Vec3& point_ws, const ModelPose& pose,
-                   const std::array<Vec3, kPoseDof>& axis_ws,
-                   std::array<Vec3, kPoseDof>& column_ws);
-
 /// Forward kinematics of a posture.
 ModelPose Placed(const Skeleton& skeleton, const Posture& posture);
 

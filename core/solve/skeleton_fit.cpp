@@ -11,6 +11,7 @@
 
 #include "core/body/body.h"
 #include "core/solve/bundle.h"
+#include "core/solve/skin_prior.h"
 
 namespace ego {
 namespace {
@@ -165,8 +166,7 @@ double MeanResidual(const Bundle& bundle) {
     const ModelPose pose = Placed(model.skeleton, bundle.postures[f]);
     for (const BoundMarker& marker : model.markers) {
       if (!bundle.frames[f].visible[marker.label]) continue;
-      const Vec3 point =
-          pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls;
+      const Vec3 point = MarkerPosition(marker, pose);
       sum += glm::distance(point, bundle.frames[f].position_ws[marker.label]);
       ++count;
     }
@@ -196,6 +196,9 @@ Result<SkeletonFit> FitSkeleton(const MarkerTake& take, const MarkerSet& set,
     marker.template_offset = place.position_ms - canonical[Index(place.joint)];
     marker.along = AlongBone(place.joint, marker.template_offset);
     marker.sigma = place.sigma;
+    const SkinPrior skin = SkinPriorOf(place);
+    marker.child = skin.child;
+    marker.share_sigma = skin.sigma;
     bundle.markers.push_back(marker);
     fit.set_marker.push_back(*match[i]);
   }
@@ -250,12 +253,14 @@ Result<SkeletonFit> FitSkeleton(const MarkerTake& take, const MarkerSet& set,
   stage.offset_sigma_scale = options.offset_sigma_scale;
   constexpr std::array<std::pair<double, int>, 5> kStages = {
       {{0.030, 8}, {0.020, 8}, {0.012, 10}, {0.008, 12}, {0.008, 20}}};
+  constexpr std::size_t kFirstSkinStage = 3;
   for (std::size_t s = 0; s < kStages.size(); ++s) {
     if (!Report(progress, 0.4 + 0.6 * static_cast<double>(s) / kStages.size(),
                 "fitting the skeleton")) {
       return Error{"cancelled"};
     }
     stage.loss.sigma = kStages[s].first;
+    stage.skin = s >= kFirstSkinStage;
     stage.max_iterations = kStages[s].second;
     if (s + 1 == kStages.size()) {  // places are known: ghosts need not pull any longer
       stage.loss.kind = MarkerLoss::Kind::kGemanMcClure;

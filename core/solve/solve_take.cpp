@@ -65,8 +65,7 @@ void Measure(const MarkerTake& take, const MarkerModel& model, const std::vector
       if (!frame.visible[marker.label]) continue;
       ++seen[m];
       if (!solved[f]) continue;
-      const Vec3 point =
-          pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls;
+      const Vec3 point = MarkerPosition(marker, pose);
       const double error = 1000.0 * glm::distance(point, frame.position_ws[marker.label]);
       all.push_back(error);
       sum[m] += error;

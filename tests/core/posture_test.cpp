@@ -130,35 +130,89 @@ TEST(PostureCost, GradientIsTheFiniteDifferenceOfTheCost) {
   }
 }
 
-TEST(PostureCost, PointJacobianIsTheFiniteDifferenceOfThePoint) {
-  const Skeleton skeleton = TemplateSkeleton(1.7);
-  const Posture posture = RandomPosture(3, 0.4);
-  const ModelPose pose = Placed(skeleton, posture);
-  std::array<Vec3, kPoseDof> axes;
-  DofAxes(pose, axes);
+/// A marker on every joint whose skin follows its neighbours and slips on the bone's twist.
+std::vector<BoundMarker> SlidingMarkers() {
+  std::vector<BoundMarker> markers;
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const auto joint = static_cast<J>(j);
-    const Vec3 offset{0.05, -0.02, 0.03};
-    const auto point = [&](const Posture& p) {
-      const ModelPose placed = Placed(skeleton, p);
-      return placed.Position(joint) + placed.Rotation(joint) * offset;
-    };
-    std::array<Vec3, kPoseDof> column;
-    PointJacobian(joint, point(posture), pose, axes, column);
-    std::size_t next = 0;
-    for (std::size_t d = 0; d < kPoseDof; ++d) {
-      constexpr double kStep = 1e-6;
-      std::array<double, kPoseDof> step{};
-      step[d] = kStep;
-      const Vec3 ahead = point(Moved(posture, step));
-      step[d] = -kStep;
-      const Vec3 slope = (ahead - point(Moved(posture, step))) / (2.0 * kStep);
-      const auto chain = Chain(joint);
-      const bool in_chain = next < chain.size() && chain[next] == d;
-      EXPECT_LT(glm::distance(slope, in_chain ? column[next] : Vec3{0.0}), 1e-7)
-          << Name(joint) << " dof " << d;
-      if (in_chain) ++next;
+    BoundMarker marker{j, joint, {0.05, 0.04, -0.01 * static_cast<double>(j)}};
+    for (std::size_t c = 1; c < kJointCount; ++c) {
+      if (kParent[c] == joint) marker.child = static_cast<J>(c);
     }
+    marker.share = {j == 0 ? 0.0 : 0.15, marker.child == J::kHips ? 0.0 : 0.2, 0.3};
+    markers.push_back(marker);
+  }
+  return markers;
+}
+
+TEST(BoundMarker, JacobiansAreTheFiniteDifferencesOfThePosition) {
+  const Skeleton skeleton = TemplateSkeleton(1.7);
+  constexpr double kStep = 1e-6;
+  for (unsigned seed = 3; seed < 8; ++seed) {
+    const Posture posture = RandomPosture(seed, 0.5);
+    const ModelPose pose = Placed(skeleton, posture);
+    std::array<Vec3, kPoseDof> axes;
+    DofAxes(pose, axes);
+    for (const BoundMarker& marker : SlidingMarkers()) {
+      const CarriedMarker carried = Carry(marker, pose);
+      std::array<Vec3, kPoseDof> columns;
+      MarkerJacobian(marker, carried, pose, axes, columns);
+      std::array<Vec3, kPoseDof> all{};  // those off the chain are zero
+      for (std::size_t i = 0; i < Chain(marker).size(); ++i) all[Chain(marker)[i]] = columns[i];
+      for (std::size_t d = 0; d < kPoseDof; ++d) {
+        std::array<double, kPoseDof> step{};
+        step[d] = kStep;
+        const Vec3 ahead = MarkerPosition(marker, Placed(skeleton, Moved(posture, step)));
+        step[d] = -kStep;
+        const Vec3 behind = MarkerPosition(marker, Placed(skeleton, Moved(posture, step)));
+        EXPECT_LT(glm::distance((ahead - behind) / (2.0 * kStep), all[d]), 1e-7)
+            << Name(marker.joint) << " dof " << d;
+      }
+      const Mat3 by_offset = OffsetJacobian(marker, carried, pose);
+      for (int axis = 0; axis < 3; ++axis) {
+        BoundMarker moved = marker;
+        moved.offset_ls[axis] += kStep;
+        EXPECT_LT(glm::distance((MarkerPosition(moved, pose) - carried.point_ws) / kStep,
+                                by_offset[axis]),
+                  1e-7)
+            << Name(marker.joint);
+      }
+      const std::array<Vec3, kSkinShareCount> by_share = ShareJacobian(marker, carried, pose);
+      for (std::size_t i = 0; i < kSkinShareCount; ++i) {
+        if (i == 0 && marker.joint == J::kHips) continue;
+        BoundMarker moved = marker;
+        moved.share[i] += kStep;
+        EXPECT_LT(
+            glm::distance((MarkerPosition(moved, pose) - carried.point_ws) / kStep, by_share[i]),
+            1e-6)
+            << Name(marker.joint) << " share " << i;
+      }
+    }
+  }
+}
+
+TEST(BoundMarker, WithoutSharesItIsRigidAndTheTwistIsFollowedContinuously) {
+  const Skeleton skeleton = TemplateSkeleton(1.7);
+  const ModelPose pose = Placed(skeleton, RandomPosture(2, 0.5));
+  BoundMarker marker{0, J::kLeftLowerArm, {0.1, 0.03, 0.02}};
+  marker.child = J::kLeftHand;
+  EXPECT_LT(
+      glm::distance(MarkerPosition(marker, pose),
+                    pose.Position(marker.joint) + pose.Rotation(marker.joint) * marker.offset_ls),
+      1e-12);
+  // Turning the forearm all the way round, the marker never jumps.
+  marker.share = {0.0, 0.0, 0.5};
+  Vec3 last{0.0};
+  for (int i = 0; i <= 720; ++i) {
+    Posture posture = NeutralPosture();
+    std::array<double, kPoseDof> step{};
+    step[DofsOf(J::kLeftLowerArm).first + 1] = Radians(0.5 * i);
+    posture = Moved(posture, step);
+    const Vec3 now = MarkerPosition(marker, Placed(skeleton, posture));
+    if (i > 0) {
+      EXPECT_LT(glm::distance(now, last), 0.001) << i;
+    }
+    last = now;
   }
 }
 

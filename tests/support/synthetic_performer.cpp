@@ -101,6 +101,14 @@ SyntheticTake MakeSyntheticTake(const MarkerSet& set, const SyntheticOptions& op
     made.truth.markers.push_back(
         {m, place.joint,
          options.scale * (offset + options.placement_spread * place.sigma * stray) + longer});
+    if (place.region == MarkerRegion::kLimb || place.joint == J::kLeftShoulder ||
+        place.joint == J::kRightShoulder) {
+      BoundMarker& marker = made.truth.markers.back();
+      const double along = AlongBone(place.joint, offset);
+      marker.child = end == J::kLeftFoot || end == J::kRightFoot ? J::kHips : end;
+      marker.share = {options.skin * (1.0 - along),
+                      marker.child == J::kHips ? 0.0 : options.skin * along, options.skin};
+    }
     made.take.labels.push_back(place.label);
   }
   made.take.name = "synthetic";
@@ -113,9 +121,7 @@ SyntheticTake MakeSyntheticTake(const MarkerSet& set, const SyntheticOptions& op
     const ModelPose pose = ForwardKinematics(made.truth.skeleton, made.poses.back());
     for (const BoundMarker& marker : made.truth.markers) {
       const Vec3 noise{normal(random), normal(random), normal(random)};
-      made.take.position_ws.push_back(pose.Position(marker.joint) +
-                                      pose.Rotation(marker.joint) * marker.offset_ls +
-                                      options.noise * noise);
+      made.take.position_ws.push_back(MarkerPosition(marker, pose) + options.noise * noise);
       made.take.visible.push_back(1);
     }
   }

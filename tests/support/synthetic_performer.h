@@ -25,6 +25,7 @@ struct SyntheticOptions {
   double length_spread = 0.02;    // lengths differ from the scaled template, metres
   double placement_spread = 0.5;  // markers differ from the set's places, in its sigmas
   double noise = 0.001;           // metres, one axis
+  double skin = 0.0;              // share by which limb markers follow the bones beside theirs
   double frames = 400;
   double rate_hz = 100.0;
   unsigned seed = 1;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/base/math.h"
+#include "core/skeleton/pose.h"
+#include "core/solve/posture.h"
+
+namespace ego {
+
+/// How skin follows the bones around it, as shares of what they do (0: rigid on its own bone).
+enum class SkinShare : std::uint8_t {
+  kWithParent,  // carried by the parent joint's bone: thigh skin held back by the pelvis
+  kWithChild,   // carried by the child's bone: skin over the shoulder drawn along by the arm
+  kOffTwist,    // of its own bone's twist about its length, not followed
+};
+inline constexpr std::size_t kSkinShareCount = 3;
+using SkinShares = std::array<double, kSkinShareCount>;
+
+/// A marker's place on a performer's skeleton.
+struct BoundMarker {
+  std::size_t label = 0;                       // index into the frames' points
+  HumanoidJoint joint = HumanoidJoint::kHips;  // carries it
+  Vec3 offset_ls{0.0};                         // from the joint, canonical pose, metres
+  HumanoidJoint child = HumanoidJoint::kHips;  // of `joint`; unused while its share is zero
+  SkinShares share{};
+
+  double Share(SkinShare which) const { return share[static_cast<std::size_t>(which)]; }
+};
+
+/// Where a posed skeleton takes a marker: linear blend skinning between its bone and the two
+/// beside it, less a share of its own bone's twist.
+struct CarriedMarker {
+  Vec3 point_ws{0.0};
+  Vec3 own_ws{0.0};     // as its own bone alone takes it
+  Vec3 parent_ws{0.0};  // as the parent's bone would; valid while there is a parent
+  Vec3 child_ws{0.0};   // as the child's bone would; own_ws without a child
+  Vec3 bone_ws{0.0};    // direction of its limb bone; zero elsewhere
+  double twist = 0.0;   // sine of the bone's twist; zero outside limbs
+};
+
+CarriedMarker Carry(const BoundMarker& marker, const ModelPose& pose);
+
+/// Position of a marker on a posed skeleton, world space.
+Vec3 MarkerPosition(const BoundMarker& marker, const ModelPose& pose);
+
+/// The degrees of freedom that move a marker, ascending.
+std::span<const std::uint8_t> Chain(const BoundMarker& marker);
+
+/// d(position) / d(dof), in the order of Chain(marker).
+void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, const ModelPose& pose,
+                    const std::array<Vec3, kPoseDof>& axis_ws,
+                    std::array<Vec3, kPoseDof>& column_ws);
+
+/// d(position) / d(offset_ls).
+Mat3 OffsetJacobian(const BoundMarker& marker, const CarriedMarker& placed, const ModelPose& pose);
+
+/// d(position) / d(share).
+std::array<Vec3, kSkinShareCount> ShareJacobian(const BoundMarker& marker,
+                                                const CarriedMarker& placed, const ModelPose& pose);
+
+}  // namespace ego
