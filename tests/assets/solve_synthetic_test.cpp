@@ -103,15 +103,16 @@ TEST(SkeletonFit, ResidualIsTheNoiseNoLess) {
 TEST(SkeletonFit, SkinThatSlidesNeitherStretchesBonesNorRaisesTheResidual) {
   test::SyntheticOptions options;
   options.frames = 300;
-  options.skin = 0.12;
+  options.skin = 0.2;
   const test::SyntheticTake made = test::MakeSyntheticTake(SetNamed("CMU 41"), options);
   const Result<SkeletonFit> fit = FitSkeleton(made.take, SetNamed("CMU 41"));
   ASSERT_TRUE(fit) << fit.error();
-  EXPECT_LT(fit->mean_residual, 0.0022);  // 1.6 mm of it noise; markers slide by centimetres
+  EXPECT_LT(fit->mean_residual, 0.0018);  // the noise; rigid markers would leave 2.9 mm
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const J end = EndJoint(static_cast<LimbSegment>(s));
     const double truth = BoneLength(made.truth.skeleton, end);
-    EXPECT_NEAR(BoneLength(fit->model.skeleton, end), truth, 0.03 * truth) << Name(end);
+    EXPECT_NEAR(BoneLength(fit->model.skeleton, end), truth, (s < 4 ? 0.032 : 0.015) * truth)
+        << Name(end);
   }
 }
 
