@@ -14,6 +14,7 @@
 #include "assets/gltf/gltf_document.h"
 #include "assets/gltf/gltf_model.h"
 #include "assets/gltf/scene_reader.h"
+#include "core/model/sole.h"
 #include "core/skeleton/rest_alignment.h"
 
 namespace ego {
@@ -97,6 +98,21 @@ double MetresPerUnit(double height, std::vector<std::string>& notes) {
   return scale;
 }
 
+/// Levels feet whose soles slope far more than modelling leaves to chance, because the rest pose
+/// is no standing one; a slight slope may be meant. Says whether any was.
+bool LevelFeet(const Character& character, Alignment& alignment) {
+  bool levelled = false;
+  for (const bool left : {true, false}) {
+    if (character.map.Node(left ? J::kLeftFoot : J::kRightFoot) < 0) continue;
+    const double slope = SoleSlope(character, left).value_or(0.0);
+    const double t = std::clamp((std::abs(Degrees(slope)) - 6.0) / 6.0, 0.0, 1.0);
+    if (t == 0.0) continue;
+    alignment.RaiseToes(left, t * t * (3.0 - 2.0 * t) * slope);
+    levelled = true;
+  }
+  return levelled;
+}
+
 Result<void> FitHumanoid(const tinygltf::Model& model, const SceneSkeleton& skeleton,
                          Character& character) {
   auto hints = ReadVrmHints(model, skeleton.order);
@@ -116,6 +132,9 @@ Result<void> FitHumanoid(const tinygltf::Model& model, const SceneSkeleton& skel
   if (!aligned) return Error{aligned.error()};
   const std::vector<bool> moves = NodesWithWeight(character);
   character.rig = BuildRig(character.nodes, rest, character.map, *aligned, moves);
+  if (LevelFeet(character, *aligned)) {
+    character.rig = BuildRig(character.nodes, rest, character.map, *aligned, moves);
+  }
   if (const auto sole = LowestSole(character)) {
     aligned->MoveGround(*sole);
     character.rig = BuildRig(character.nodes, rest, character.map, *aligned, moves);
@@ -123,6 +142,16 @@ Result<void> FitHumanoid(const tinygltf::Model& model, const SceneSkeleton& skel
   character.notes.insert(character.notes.end(), character.map.notes.begin(),
                          character.map.notes.end());
   return {};
+}
+
+/// A message that may hold names from the file, on one line and of bearable length.
+std::string OneLine(std::string text) {
+  constexpr std::size_t kLongest = 500;
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return text;
 }
 
 Result<Character> Read(std::span<const std::uint8_t> bytes, std::string_view name,
@@ -154,6 +183,7 @@ Result<Character> Read(std::span<const std::uint8_t> bytes, std::string_view nam
     if (auto fit = FitHumanoid(**model, *skeleton, character); !fit) {
       return Error{prefix + fit.error()};
     }
+    for (std::string& note : character.notes) note = OneLine(std::move(note));
     if (cancelled(1.0, "done")) return Error{"cancelled"};
     return character;
   } catch (const std::bad_alloc&) {
@@ -167,13 +197,16 @@ Result<Character> ReadCharacter(const std::filesystem::path& path, const Progres
   auto bytes = ReadFile(path);
   if (!bytes) return Error{bytes.error()};
   auto character = Read(*bytes, path.filename().string(), path.parent_path(), progress);
-  if (character) character->source_path = path.string();
+  if (!character) return Error{OneLine(character.error())};
+  character->source_path = path.string();
   return character;
 }
 
 Result<Character> ParseCharacter(std::span<const std::uint8_t> bytes, std::string_view name,
                                  const Progress& progress) {
-  return Read(bytes, name, {}, progress);
+  auto character = Read(bytes, name, {}, progress);
+  if (!character) return Error{OneLine(character.error())};
+  return character;
 }
 
 }  // namespace ego

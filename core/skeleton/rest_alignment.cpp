@@ -294,6 +294,15 @@ void Alignment::MoveGround(double lowest_y) {
   ground_point += glm::conjugate(body_rotation) * Vec3(0.0, lowest_y / metres_per_unit, 0.0);
 }
 
+void Alignment::RaiseToes(bool left, double angle) {
+  const Quat turn = glm::angleAxis(-angle, Vec3(1.0, 0.0, 0.0));
+  const std::size_t toes = Index(left ? J::kLeftToes : J::kRightToes);
+  for (const std::size_t j : {Index(left ? J::kLeftFoot : J::kRightFoot), toes}) {
+    to_canonical[j] = glm::normalize(turn * to_canonical[j]);
+  }
+  skeleton.offset[toes] = turn * skeleton.offset[toes];
+}
+
 Pose PoseFromNodes(const Alignment& alignment, const HumanoidMap& map,
                    std::span<const Quat> node_rest_rotation, std::span<const Quat> node_rotation,
                    std::span<const Vec3> node_position) {

@@ -49,6 +49,10 @@ struct Alignment {
   /// Lifts or lowers the canonical skeleton so that `lowest_y` (metres) becomes the ground: for
   /// bodies with a mesh, whose soles are known better than joints tell.
   void MoveGround(double lowest_y);
+  /// Turns a foot and its toes about the ankle, in the canonical pose, so that the toes rise by
+  /// `angle` radians: for bodies with a mesh, whose soles tell better than joints how a foot
+  /// stands.
+  void RaiseToes(bool left, double angle);
 };
 
 /// The pose of a motion's frame from node rotations and positions in file space (global, one per

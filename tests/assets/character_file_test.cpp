@@ -208,6 +208,36 @@ TEST(ReadCharacter, RigidMeshesHangOnTheirJoint) {
   EXPECT_NEAR(placed[0].y, 0.98 + 1.4 - 0.08, 1e-5);
 }
 
+/// The sample with the skin of the left foot made a sole of this slope (toes down positive), and
+/// how much lower its toes are than its heel in the canonical pose.
+double ToesBelowHeel(double slope_degrees) {
+  Sample sample = MakeSample();
+  const auto view = sample.AccessorOf("POSITION")["bufferView"].get<std::size_t>();
+  const auto from = sample.root["bufferViews"][view]["byteOffset"].get<std::size_t>();
+  constexpr std::size_t kFoot = 11;
+  const double s = std::sin(Radians(slope_degrees));
+  const double c = std::cos(Radians(slope_degrees));
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const double along = corner < 2 ? -0.05 : 0.15;
+    const float p[3] = {corner % 2 == 0 ? 0.08f : 0.12f, static_cast<float>(0.1 - along * s),
+                        static_cast<float>(along * c)};
+    std::memcpy(sample.bin.data() + from + 12 * (4 * kFoot + corner), p, sizeof p);
+  }
+  const auto character = Parse(sample);
+  EXPECT_TRUE(character) << character.error();
+  const auto placed = Placed(*character);
+  return placed[4 * kFoot].y - placed[4 * kFoot + 2].y;
+}
+
+TEST(ReadCharacter, LevelsFeetThatHangAndKeepASlightSlope) {
+  for (const double slope : {-40.0, 15.0, 30.0, 60.0}) {
+    EXPECT_NEAR(ToesBelowHeel(slope), 0.0, 1e-6) << slope;
+  }
+  for (const double slope : {-4.0, 0.0, 5.0}) {
+    EXPECT_NEAR(ToesBelowHeel(slope), 0.2 * std::sin(Radians(slope)), 1e-6) << slope;
+  }
+}
+
 TEST(ReadCharacter, TakesVrmBonesOverNames) {
   for (const bool old : {true, false}) {
     Sample sample = MakeSample();
@@ -322,6 +352,17 @@ TEST(ReadCharacter, RefusesWhatIsNoGltf) {
   EXPECT_NE(sentence(std::span(reinterpret_cast<const std::uint8_t*>(deep.data()), deep.size()))
                 .find("nested"),
             std::string::npos);
+}
+
+TEST(ReadCharacter, NamesInTheFileDoNotBreakTheSentence) {
+  Sample sample = MakeSample();
+  sample.root["nodes"][5]["name"] = "first\nsecond" + std::string(5000, 'x');
+  sample.root["nodes"][5]["children"] = {2};
+  sample.root["nodes"][2]["name"] = "first\nsecond" + std::string(5000, 'x');
+  const auto character = Parse(sample);
+  ASSERT_FALSE(character);
+  EXPECT_LT(character.error().size(), 600u);
+  EXPECT_EQ(character.error().find('\n'), std::string::npos);
 }
 
 TEST(ReadCharacter, NeverReadsOutsideItsFolder) {

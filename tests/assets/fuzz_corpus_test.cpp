@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "assets/files/file_io.h"
+#include "assets/gltf/character_file.h"
 #include "assets/takes/bvh.h"
 #include "assets/takes/c3d.h"
 #include "assets/takes/trc.h"
 #include "core/pipeline/skeleton_capture.h"
+#include "tests/support/character_laws.h"
 #include "tests/support/take_laws.h"
 
 namespace ego {
@@ -51,6 +53,13 @@ TEST(FuzzCorpus, HoldsTheLawsOfBvh) {
     if (motion) test::CheckCapture(CaptureFromJointMotion(*motion), *motion);
   };
   EXPECT_GE(Replay("bvh", read), 4u);
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfGltf) {
+  const auto read = [](auto bytes) {
+    test::CheckCharacter(ParseCharacter(bytes, "x.glb"), "x.glb");
+  };
+  EXPECT_GE(Replay("gltf", read), 10u);
 }
 
 }  // namespace
