@@ -227,7 +227,7 @@ Script HandToAnkle(const Stage& stage) {
   const Vec3 knee = stage.Joint(J::kRightLowerLeg);
   p.hand[1] = Touch(stage.At(knee + Vec3{0.0, 0.06, 0.0}, {0.0, 0.0, 1.0}), {-0.3, -1.0, 0.0},
                     {0.9, 0.2, -0.3});
-  return Visit(p, 1.75, 1.1, 1.75);
+  return Visit(p, 1.85, 1.1, 1.85);
 }
 
 Script WalkInPlace(const Stage&) {

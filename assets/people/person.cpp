@@ -26,14 +26,14 @@ std::vector<double> Planes(double low, double high, const std::function<double(d
   return planes;
 }
 
-/// Cells of about one part in 110 of the height, a third of that in the hands and half of it in the
-/// head, finer for thin shins: the lattice tapers along the limbs and above the neck.
+/// Cells of about one part in 96 of the height, finer in the hands and the head,
+/// finer for thin shins: the lattice tapers along the limbs and above the neck.
 SampleLattice LatticeOf(const PersonShape& shape) {
   const PersonParameters& m = shape.parameters();
-  const double cell = m.height / 110.0;
+  const double cell = m.height / 96.0;
   const Vec3 wrist = shape.Joint(J::kLeftHand);
-  const double hand_fine = std::min(1.0, 0.026 * m.hand_length / cell);
-  const double head_fine = std::min(1.0, 0.038 * m.head_height / cell);
+  const double hand_fine = std::min(1.0, 0.042 * m.hand_length / cell);
+  const double head_fine = std::min(1.0, 0.054 * m.head_height / cell);
   const double neck = shape.Joint(J::kNeck).y;
   const double face = shape.ChinHeight() + 0.15 * m.head_height;
   const double beside = std::max(0.5 * m.shoulder_width, 0.6 * m.head_width / head_fine);
@@ -50,7 +50,7 @@ SampleLattice LatticeOf(const PersonShape& shape) {
                      (1.0 - SmoothStep(beside, beside + 0.5 * m.shoulder_width, std::abs(x)));
   };
   const double knee = shape.Joint(J::kLeftLowerLeg).y;
-  const double leg_fine = std::clamp(0.33 * m.lower_leg_radius / cell, 0.5, 1.0);
+  const double leg_fine = std::clamp(0.32 * m.lower_leg_radius / cell, 0.45, 1.0);
   const auto leg_scale = [=](double y) {
     return leg_fine + (1.0 - leg_fine) * SmoothStep(knee, knee + 0.3 * (wrist.y - knee), y);
   };

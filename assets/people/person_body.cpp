@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/base/check.h"
@@ -20,13 +21,33 @@ struct Hit {
   bool leaves = false;
 };
 
+/// On which sides of two planes through the ray each vertex surely lies, as bits. A triangle whose
+/// corners share a side is not hit.
+std::vector<std::uint8_t> SidesOfRay(const FigureSurface& surface, const Vec3& origin,
+                                     const Vec3& d) {
+  constexpr double kMargin = 1e-7;
+  const Vec3 across = glm::cross(d, std::abs(d.y) < 0.8 ? kUp : Vec3{1.0, 0.0, 0.0});
+  const Vec3 normals[] = {across, glm::cross(d, across)};
+  std::vector<std::uint8_t> sides(surface.position_ms.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Vec3 p = surface.position_ms[i] - origin;
+    const double a = glm::dot(p, normals[0]);
+    const double b = glm::dot(p, normals[1]);
+    sides[i] = static_cast<std::uint8_t>((a > kMargin) | (a < -kMargin) << 1 | (b > kMargin) << 2 |
+                                         (b < -kMargin) << 3);
+  }
+  return sides;
+}
+
 /// All crossings in front of the origin (Möller and Trumbore 1997), nearest first.
 std::vector<Hit> Crossings(const FigureSurface& surface, const Vec3& origin, const Vec3& d) {
   // A ray through an edge hits both of its triangles rather than none; one of them is dropped.
   constexpr double kEdge = 1e-9;
+  const std::vector<std::uint8_t> sides = SidesOfRay(surface, origin, d);
   std::vector<Hit> hits;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     const auto& t = surface.triangles[i];
+    if ((sides[t[0]] & sides[t[1]] & sides[t[2]]) != 0) continue;
     const Vec3& a = surface.position_ms[t[0]];
     const Vec3 e1 = surface.position_ms[t[1]] - a;
     const Vec3 e2 = surface.position_ms[t[2]] - a;
