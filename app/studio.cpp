@@ -21,6 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kDemoAvatars = 5;
 constexpr auto kMessageStays = 8s;
+constexpr auto kSettles = 400ms;  // after a change the panels may need a few pictures more
 
 template <class Entry>
 auto Find(std::vector<Entry>& entries, std::uint64_t id) {
@@ -33,7 +34,8 @@ Studio::Studio(std::unique_ptr<Window> window, StageRenderer renderer)
     : window_(std::move(window)),
       gui_(*window_),
       picture_(std::move(renderer)),
-      method_(RetargetMethodNames().front()) {
+      method_(RetargetMethodNames().front()),
+      last_change_(std::chrono::steady_clock::now()) {
   layout_.Divide(static_cast<float>(window_->width()), static_cast<float>(window_->height()),
                  gui_.scale());
 }
@@ -179,8 +181,10 @@ void Studio::PassMembers() {
   picture_.SetMembers(std::move(members));
 }
 
-void Studio::TakeInLoaded() {
+bool Studio::TakeInLoaded() {
+  bool any = false;
   while (std::optional<Result<BackgroundLoader::Loaded>> result = loader_.Take()) {
+    any = true;
     if (!*result) {
       Say(Message::Kind::kError, result->error());
       continue;
@@ -202,6 +206,16 @@ void Studio::TakeInLoaded() {
       RebuildScene();
     }
   }
+  return any;
+}
+
+Remembered Studio::ToRemember() const {
+  return {window_->width(), window_->height(), layout_, overlays_};
+}
+
+void Studio::Restore(const Remembered& remembered) {
+  layout_ = remembered.layout;
+  overlays_ = remembered.overlays;
 }
 
 void Studio::MeasureRate() {
@@ -214,21 +228,22 @@ void Studio::MeasureRate() {
 
 // While nothing moves there is nothing to draw: waiting for input then leaves the machine alone.
 double Studio::Patience() const {
-  const auto quiet_for = std::chrono::steady_clock::now() - last_change_;
-  return quiet_for > 400ms ? 0.1 : 0.0;
+  return std::chrono::steady_clock::now() - last_change_ > kSettles ? 0.1 : 0.0;
 }
 
 void Studio::RunFrame() {
   window_->Poll(Patience());
   const auto now = std::chrono::steady_clock::now();
-  TakeInLoaded();
+  bool changed = TakeInLoaded();
   if (!window_->dropped().empty()) OpenFiles(window_->dropped());
   HandleKeys();
-  const bool moved = stage_.Fetch();
-  if (moved || window_->had_input() || loader_.activity()) last_change_ = now;
+  changed |= stage_.Fetch();
   if (message_ && message_->kind == Message::Kind::kInfo && now - message_->when > kMessageStays) {
     message_.reset();
+    changed = true;
   }
+  if (changed || window_->had_input()) last_change_ = now;
+  if (now - last_change_ > kSettles && !loader_.activity()) return;
   if (window_->width() == 0 || window_->height() == 0) {
     std::this_thread::sleep_for(50ms);
     return;
@@ -255,12 +270,18 @@ void Studio::RunFrame() {
 }
 
 int RunStudio(const std::vector<std::filesystem::path>& files) {
-  Result<std::unique_ptr<Window>> window = Window::Open("Egostudio", 1600, 900);
+  const std::filesystem::path memory = RememberedPath();
+  const Result<Remembered> remembered = ReadRemembered(memory);
+  const Remembered start = remembered ? *remembered : Remembered{};
+  Result<std::unique_ptr<Window>> window =
+      Window::Open("Egostudio", start.window_width, start.window_height);
   if (!window) return Fail(window.error());
   const std::vector<std::uint8_t> font = ReadFace(Face::kTextStrong);
   Result<StageRenderer> renderer = StageRenderer::Create({.font = font, .samples = 0});
   if (!renderer) return Fail(renderer.error());
   Studio studio(*std::move(window), *std::move(renderer));
+  studio.Restore(start);
+  if (!remembered) studio.Say(Message::Kind::kError, remembered.error());
 
   const auto any = [&](FileKind kind) {
     return std::any_of(files.begin(), files.end(), [kind](const std::filesystem::path& file) {
@@ -272,6 +293,9 @@ int RunStudio(const std::vector<std::filesystem::path>& files) {
   if (!any(FileKind::kTake)) studio.OpenDemoTake();
   if (!any(FileKind::kAvatar)) studio.OpenDemoCast();
   while (!studio.ShouldClose()) studio.RunFrame();
+  if (memory.empty()) return kDone;
+  const Result<void> kept = WriteRemembered(memory, studio.ToRemember());
+  if (!kept) std::fprintf(stderr, "egostudio: %s\n", kept.error().c_str());
   return kDone;
 }
 

@@ -12,6 +12,7 @@
 
 #include "app/loading/background_loader.h"
 #include "app/panels/frame_layout.h"
+#include "app/remembered.h"
 #include "app/stage/stage_thread.h"
 #include "app/view/stage_picture.h"
 #include "app/window/gui.h"
@@ -57,7 +58,8 @@ class Studio {
   void OpenDemoTake();
   void OpenDemoCast();
 
-  /// One turn of the main loop: input, what was loaded, panels, picture.
+  /// One turn of the main loop: input, what was loaded, panels, picture. Draws nothing, and waits
+  /// for input instead, while nothing changes.
   void RunFrame();
   bool ShouldClose() const { return window_->ShouldClose(); }
 
@@ -106,11 +108,13 @@ class Studio {
   void DismissMessage() { message_.reset(); }
   double draw_hz() const { return draw_hz_; }
   Window& window() { return *window_; }
+  Remembered ToRemember() const;
+  void Restore(const Remembered& remembered);
 
   bool show_keys = false;  // the list of keys is up
 
  private:
-  void TakeInLoaded();
+  bool TakeInLoaded();
   void HandleKeys();
   void DrawStage();
   void FrameWhenChanged();

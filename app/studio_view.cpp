@@ -152,6 +152,12 @@ void Studio::HandleKeys() {
       case GLFW_KEY_C:
         flip(overlays_.crude);
         break;
+      case GLFW_KEY_T:
+        flip(overlays_.contacts);
+        break;
+      case GLFW_KEY_S:
+        flip(overlays_.true_sizes);
+        break;
       case GLFW_KEY_N:
         flip(overlays_.names);
         break;

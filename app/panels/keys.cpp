@@ -26,9 +26,14 @@ constexpr Line kLines[] = {
     {"K", "captured skeleton"},
     {"M", "markers"},
     {"C", "crude surfaces over avatars"},
+    {"T", "spots where hands touch"},
     {"N", "names"},
+    {"S", "true sizes"},
     {"Tab", "fold all panels away"},
+    {"Drag", "turn; with Shift or the right button move"},
+    {"Wheel", "closer, farther"},
     {"Ctrl+Z", "bring back what was removed"},
+    {"Ctrl+Q", "close the window"},
     {"Esc", "close this, drop the selection"},
 };
 

@@ -18,7 +18,7 @@ ImVec4 Vec(const glm::vec3& c) { return {c.x, c.y, c.z, 1.0f}; }
 std::string Times(const Studio& studio) {
   const StageTimings& t = studio.frame().timings;
   char text[160];
-  std::snprintf(text, sizeof(text), "draw %3.0f fps   read %3.0f \xC2\xB5s   adapt %4.0f \xC2\xB5s",
+  std::snprintf(text, sizeof(text), "%3.0f fps   read %3.0f \xC2\xB5s   adapt %4.0f \xC2\xB5s",
                 studio.draw_hz(), t.normalize.p50_us, t.adapt.p50_us);
   return text;
 }
@@ -72,11 +72,14 @@ void ShowStatusBar(Studio& studio) {
     ImGui::TextColored(Vec(look::kQuiet), "%s", times.c_str());
     if (ImGui::IsItemHovered()) {
       const StageTimings& t = studio.frame().timings;
-      char tip[240];
+      char tip[400];
       std::snprintf(tip, sizeof(tip),
-                    "Per frame, median / 99th percentile\nread posture %.0f / %.0f \xC2\xB5s\n"
-                    "adapt all avatars %.0f / %.0f \xC2\xB5s\nstage %.0f / %.0f \xC2\xB5s\n"
-                    "take frames left out: %llu",
+                    "Pictures drawn per second, and the work per frame of the take:\n"
+                    "median / slowest of a hundred\n"
+                    "read the performer's posture %.0f / %.0f \xC2\xB5s\n"
+                    "adapt it to all avatars %.0f / %.0f \xC2\xB5s\n"
+                    "everything %.0f / %.0f \xC2\xB5s\n"
+                    "frames of the take left out: %llu",
                     t.normalize.p50_us, t.normalize.p99_us, t.adapt.p50_us, t.adapt.p99_us,
                     t.frame.p50_us, t.frame.p99_us,
                     static_cast<unsigned long long>(studio.frame().frames_missed));

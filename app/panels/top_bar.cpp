@@ -13,11 +13,24 @@
 namespace ego {
 namespace {
 
-const char* MethodTip(std::string_view name) {
-  if (name == "mdb") return "Keeps contacts of the body with itself (default)";
-  if (name == "paper") return "The closest reading of the published method";
-  if (name == "copy") return "Joint angles alone, for comparison";
-  return "";
+struct MethodWords {
+  std::string label;
+  std::string tip;
+};
+
+// Plain words; the tool tip names the method as the command line does.
+MethodWords WordsOf(std::string_view name) {
+  const std::string id = "\n--method " + std::string(name);
+  if (name == "mdb") {
+    return {"Keep contacts", "Hands that touch the body in the take touch it on the avatars" + id};
+  }
+  if (name == "paper") {
+    return {"As in the paper", "The closest reading of the published method" + id};
+  }
+  if (name == "copy") {
+    return {"Joint angles only", "Copies the angles of the joints, for comparison" + id};
+  }
+  return {std::string(name), std::string(name)};
 }
 
 }  // namespace
@@ -38,7 +51,7 @@ void ShowTopBar(Studio& studio) {
     ImGui::PushFont(Gui::Current().fonts().small);
     float width = 0.0f;
     for (const std::string_view name : names) {
-      width += ImGui::CalcTextSize(name.data(), name.data() + name.size()).x +
+      width += ImGui::CalcTextSize(WordsOf(name).label.c_str()).x +
                2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
     }
     const float label = ImGui::CalcTextSize("Method").x;
@@ -47,8 +60,10 @@ void ShowTopBar(Studio& studio) {
     ImGui::PopFont();
     for (const std::string_view name : names) {
       ImGui::SameLine();
-      const std::string text(name);
-      if (Toggle(text.c_str(), MethodTip(name), studio.method() == text)) studio.SetMethod(text);
+      const MethodWords words = WordsOf(name);
+      if (Toggle(words.label.c_str(), words.tip.c_str(), studio.method() == name)) {
+        studio.SetMethod(std::string(name));
+      }
     }
   }
   EndPanel();

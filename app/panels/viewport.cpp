@@ -94,7 +94,12 @@ void ShowOverlayStrip(Studio& studio, const Rect& view) {
       {"Markers", "Markers of the take (M)", &on.markers},
       {"Skeleton", "Captured skeleton (K)", &on.skeleton},
       {"Crude", "The surfaces that the method works with, over the avatars (C)", &on.crude},
+      {"Contacts", "Spots that glow where hands touch the body (T)", &on.contacts},
       {"Names", "Names at their feet (N)", &on.names},
+      {"True sizes",
+       "Everyone at their own size (S); else giants and dwarfs are shown at one that compares,\n"
+       "and the name at their feet tells how much of their size is shown",
+       &on.true_sizes},
   };
   ImGui::PushFont(Gui::Current().fonts().small);
   float width = 0.0f;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view/contact_glows.h"
+
 namespace ego {
 
 double DisplayScale(double height, double performer_height) {
@@ -168,6 +170,27 @@ void StagePicture::AddAvatar(const StageFrame& frame, std::size_t index, const O
       {scale * avatar.body->height, scale * Girth(*avatar.body), scale * path_scale});
 }
 
+void StagePicture::AddContacts(const StageFrame& frame) {
+  glows_.clear();
+  std::vector<std::size_t> first(figures_.size() + 1, 0);
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
+    const FigureRole& role = roles_[i];
+    if (role.kind == FigureRole::Kind::kPerformer) {
+      AppendContactGlows(frame.scene->motion->performer, frame.performer_pose, 1.0, glows_);
+    }
+    for (std::size_t k = 0; role.kind == FigureRole::Kind::kAvatar && k < frame.avatars.size();
+         ++k) {
+      const StageScene::Avatar& avatar = frame.scene->avatars[k];
+      if (avatar.id != role.avatar_id) continue;
+      AppendContactGlows(*avatar.body, frame.avatars[k].pose, drawn_.at(avatar.id).scale, glows_);
+    }
+    first[i + 1] = glows_.size();
+  }
+  for (std::size_t i = 0; i < figures_.size(); ++i) {
+    figures_[i].contacts = std::span(glows_).subspan(first[i], first[i + 1] - first[i]);
+  }
+}
+
 std::span<const Figure> StagePicture::Arrange(const StageFrame& frame, const Overlays& overlays,
                                               StageLayout::Line line,
                                               const std::optional<FigureRole>& selected) {
@@ -178,6 +201,8 @@ std::span<const Figure> StagePicture::Arrange(const StageFrame& frame, const Ove
   AddPerformer(frame, overlays);
   const std::size_t avatars = std::min(frame.avatars.size(), frame.scene->avatars.size());
   for (std::size_t i = 0; i < avatars; ++i) AddAvatar(frame, i, overlays);
+
+  if (overlays.contacts) AddContacts(frame);
 
   const StageLayout& layout = LayoutOf(frame.scene->motion);
   offsets_.resize(figures_.size());

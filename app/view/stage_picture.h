@@ -30,6 +30,7 @@ struct Overlays {
   bool markers = true;   // the performer's markers
   bool bodies = true;    // the avatars' meshes
   bool crude = false;    // the avatars' crude surfaces, over their meshes
+  bool contacts = true;  // glowing spots where hands touch the body
   bool names = true;
   /// Everyone at the size of the file. Else giants and dwarfs are shown at a size that can be
   /// looked at beside the performer (DisplayScale), and their name plate tells so.
@@ -91,6 +92,7 @@ class StagePicture {
     Body scaled_body;
     ModelPose scaled_pose;
   };
+  void AddContacts(const StageFrame& frame);
   void SetScale(Drawn& drawn, const Body& body, double scale);
 
   Box3 BoundsOf(std::span<const Figure> figures);
@@ -105,6 +107,7 @@ class StagePicture {
   Vec3 anchor_{0.0};
   double heading_ = 0.0;
   std::vector<Figure> figures_;
+  std::vector<ContactGlow> glows_;  // of all figures
   std::vector<FigureRole> roles_;
   std::vector<StageLayout::Member> members_;
   std::vector<Vec3> offsets_;
