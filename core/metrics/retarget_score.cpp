@@ -27,7 +27,15 @@ void ScoreContact(const Pair& pair, Limb arm, const Vec3& source, double source_
   const double kept = SurfaceGap(pair.avatar, arm, target) - target_thickness;
   const double error = std::abs(kept / pair.avatar.body->height - gap / height);
   score.gap_error.Add(error);
-  if (error <= pair.settings.reached_gap) ++score.recalled;
+  const bool recalled = error <= pair.settings.reached_gap;
+  if (recalled) ++score.recalled;
+  const Vec3& wrist = pair.avatar.pose.Position(JointsOf(arm).end);
+  if (!WithinArmsReach(pair.avatar, arm, NearestPlace(pair.performer, arm, source),
+                       glm::distance(wrist, target))) {
+    return;
+  }
+  ++score.reachable;
+  if (recalled) ++score.reachable_recalled;
 }
 
 void ScoreFoot(const Pair& pair, std::size_t side, double rate_hz, RetargetScore& score) {

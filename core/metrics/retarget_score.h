@@ -36,11 +36,21 @@ struct Statistic {
 struct ContactScore {
   Statistic gap_error;       // shares of height
   std::size_t recalled = 0;  // contacts whose error stays below `reached_gap`
+  /// Contacts whose place on the avatar its straight arm is long enough for; others no method can
+  /// keep.
+  std::size_t reachable = 0;
+  std::size_t reachable_recalled = 0;
   /// 1 when there was nothing to keep.
   double Recall() const {
     return gap_error.count == 0
                ? 1.0
                : static_cast<double>(recalled) / static_cast<double>(gap_error.count);
+  }
+  /// The same among the reachable ones.
+  double ReachableRecall() const {
+    return reachable == 0
+               ? 1.0
+               : static_cast<double>(reachable_recalled) / static_cast<double>(reachable);
   }
 };
 

@@ -52,6 +52,23 @@ double CapsuleDistance(const Vec3& p, const Vec3& a, const Vec3& b, double radiu
   return glm::distance(p, glm::mix(a, b, ClosestOnSegment(p, a, b))) - radius;
 }
 
+/// A limb's capsule, or after them the hand of the other arm.
+struct Bone {
+  Vec3 start{0.0};
+  Vec3 end{0.0};
+  double radius = 0.0;
+};
+Bone BoneOf(const MeasuredBody& body, Limb arm, std::size_t k) {
+  if (k < kSegmentCount) {
+    const auto segment = static_cast<LimbSegment>(k);
+    return {body.pose.Position(StartJoint(segment)), body.pose.Position(EndJoint(segment)),
+            body.body->surface.limb_radius[k]};
+  }
+  const std::size_t other = Index(Mirror(arm));
+  return {body.pose.Position(JointsOf(Mirror(arm)).end), body.Fingertip(other),
+          body.body->surface.hand[other].half_thickness};
+}
+
 }  // namespace
 
 MeasuredBody::MeasuredBody(const Body& measured, const Pose& posture)
@@ -102,6 +119,52 @@ double SurfaceGap(const MeasuredBody& body, Limb arm, const Vec3& p) {
   return std::min(
       gap, CapsuleDistance(p, body.pose.Position(JointsOf(Mirror(arm)).end), body.Fingertip(other),
                            body.body->surface.hand[other].half_thickness));
+}
+
+SurfacePlace NearestPlace(const MeasuredBody& body, Limb arm, const Vec3& p) {
+  SurfacePlace nearest;
+  double least = 1e9;
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const SampleTriangle& s = SampleTriangles()[t];
+    const Triangle triangle = Triangle::Of(body.sample_ws[Index(s[0])], body.sample_ws[Index(s[1])],
+                                           body.sample_ws[Index(s[2])]);
+    const Vec3 barycentric = ClosestOnTriangle(triangle, p);
+    const double distance = glm::distance(p, AtBarycentric(triangle, barycentric));
+    if (distance < least) {
+      least = distance;
+      nearest = {true, t, barycentric, 0.0};
+    }
+  }
+  for (std::size_t k = 0; k <= kSegmentCount; ++k) {
+    if (k < kSegmentCount && LimbOf(static_cast<LimbSegment>(k)) == arm) continue;
+    const Bone bone = BoneOf(body, arm, k);
+    const double axial = ClosestOnSegment(p, bone.start, bone.end);
+    const double distance = glm::distance(p, glm::mix(bone.start, bone.end, axial)) - bone.radius;
+    if (distance < least) {
+      least = distance;
+      nearest = {false, k, Vec3{0.0}, axial};
+    }
+  }
+  return nearest;
+}
+
+bool WithinArmsReach(const MeasuredBody& body, Limb arm, const SurfacePlace& place,
+                     double beyond_wrist) {
+  const LimbJoints joints = JointsOf(arm);
+  const Vec3& shoulder = body.pose.Position(joints.base);
+  const double reach = BoneLength(body.body->skeleton, joints.mid) +
+                       BoneLength(body.body->skeleton, joints.end) + beyond_wrist;
+  if (place.on_mesh) {
+    Vec3 p{0.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      p += place.barycentric[static_cast<int>(k)] *
+           body.sample_ws[Index(SampleTriangles()[place.index][k])];
+    }
+    return glm::distance(shoulder, p) <= reach;
+  }
+  const Bone bone = BoneOf(body, arm, place.index);
+  const Vec3 axis = glm::mix(bone.start, bone.end, place.axial);
+  return glm::distance(shoulder, axis) - bone.radius <= reach;
 }
 
 double ArmDepth(const MeasuredBody& body, Limb arm) {

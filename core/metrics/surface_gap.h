@@ -33,6 +33,22 @@ double HeadDistance(const MeasuredBody& body, const Vec3& p);
 /// other hand, metres; negative inside.
 double SurfaceGap(const MeasuredBody& body, Limb arm, const Vec3& p);
 
+/// The place on one body's surface that is nearest to a point of an arm, named so that it can be
+/// found on another body: a triangle with barycentric coordinates, or a share of a bone (the other
+/// limbs' segments, then the other hand) whose surface around it is meant.
+struct SurfacePlace {
+  bool on_mesh = true;
+  std::size_t index = 0;
+  Vec3 barycentric{0.0};
+  double axial = 0.0;
+};
+SurfacePlace NearestPlace(const MeasuredBody& body, Limb arm, const Vec3& p);
+
+/// Whether the straight arm of a body, from where its shoulder is, is long enough to bring a point
+/// `beyond_wrist` metres from the wrist to that place of its surface.
+bool WithinArmsReach(const MeasuredBody& body, Limb arm, const SurfacePlace& place,
+                     double beyond_wrist);
+
 /// How deep the capsules of an arm sink into trunk or head, metres, zero if nowhere. The half of
 /// the upper arm at the shoulder belongs to the trunk and does not count.
 double ArmDepth(const MeasuredBody& body, Limb arm);

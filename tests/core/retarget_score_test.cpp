@@ -55,6 +55,21 @@ TEST(RetargetScore, TheMotionItselfScoresZero) {
   EXPECT_GT(score.largest_step, 0.0);
 }
 
+TEST(RetargetScore, KnowsWhatAnArmIsTooShortFor) {
+  const Body performer = TemplateBody();
+  const Body stump = MakeBody("stump", {.arm_length = 0.10});
+  const Pose pose = Posture(performer, "hand on head");
+  RetargetScore own;
+  Accumulate(performer, pose, performer, pose, 60.0, {}, own);
+  ASSERT_GT(own.palm.gap_error.count, 0u);
+  EXPECT_EQ(own.palm.reachable, own.palm.gap_error.count);
+  RetargetScore short_armed;
+  Accumulate(performer, pose, stump, pose, 60.0, {}, short_armed);
+  EXPECT_EQ(short_armed.palm.gap_error.count, own.palm.gap_error.count);
+  EXPECT_EQ(short_armed.palm.reachable, 0u);
+  EXPECT_EQ(short_armed.palm.ReachableRecall(), 1.0);
+}
+
 TEST(RetargetScore, SeesALiftedHandAndAJump) {
   const Body performer = TemplateBody();
   const Pose pose = Posture(performer, "hands on belly");
