@@ -13,7 +13,7 @@ namespace {
 using J = HumanoidJoint;
 
 constexpr float kRimStrength = 0.9f;
-constexpr float kShadowCells = 80.0f;  // over a character's largest extent
+constexpr float kShadowCells = 56.0f;  // over a character's largest extent
 
 std::uint32_t Size(const auto& container) { return static_cast<std::uint32_t>(container.size()); }
 

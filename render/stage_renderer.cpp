@@ -20,6 +20,18 @@ constexpr double kGroundReach = 45.0;   // metres; the floor has faded before
 constexpr double kLargestStage = 40.0;  // metres; what lies beyond has no shadow
 constexpr float kVignette = 0.30f;      // darkening in the corners
 constexpr int kShadowUnit = 1;
+constexpr float kFloorInShadow = 0.42f;  // of the light that the floor and its lines keep
+constexpr float kLineInShadow = 0.35f;
+
+// sRGB of linear light.
+glm::vec3 Encoded(const glm::vec3& linear) {
+  glm::vec3 srgb;
+  for (int i = 0; i < 3; ++i) {
+    srgb[i] = linear[i] <= 0.0031308f ? 12.92f * linear[i]
+                                      : 1.055f * std::pow(linear[i], 1.0f / 2.4f) - 0.055f;
+  }
+  return srgb;
+}
 
 }  // namespace
 
@@ -191,13 +203,17 @@ void StageRenderer::Impl::DrawFloorAndRoom(const StageView& view, const DrawTarg
           static_cast<float>(inner_high[axis]), static_cast<float>(high[axis])};
     };
     buffers.UploadFloor(lines(0), lines(2));
+    const glm::vec3 floor_dark = Encoded(kFloorInShadow * Linear(look::kFloor));
+    const glm::vec3 line_dark = Encoded(kLineInShadow * Linear(look::kGrid));
     glEnable(GL_CULL_FACE);  // from below the floor is glass
     for (const bool middle : {true, false}) {
       const gl::Program& program = middle && shadows ? ground_shadowed : ground;
       SetLight(program);
       program.Set("room_color", look::kRoom);
-      program.Set("floor_color", Linear(look::kFloor));
-      program.Set("line_color", Linear(look::kGrid));
+      program.Set("floor_dark", floor_dark);
+      program.Set("floor_gain", look::kFloor - floor_dark);
+      program.Set("line_dark", line_dark);
+      program.Set("line_gain", look::kGrid - line_dark);
       program.Set("pool_center", glm::vec3(box.Center()));
       program.Set("pool_radius", static_cast<float>(3.0 + 0.7 * std::max(extent.x, extent.z)));
       program.Set("grid_strength", 0.8f);

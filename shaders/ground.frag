@@ -6,8 +6,12 @@ in vec3 position_ws;
 in vec3 shadow_position;
 
 uniform vec3 room_color;   // sRGB, where the floor has faded
-uniform vec3 floor_color;  // linear, in the middle of the pool
-uniform vec3 line_color;   // linear
+// sRGB, in the middle of the pool: in shadow, and by how much more in the light. Encoded by the
+// caller, because the floor is half of the picture.
+uniform vec3 floor_dark;
+uniform vec3 floor_gain;
+uniform vec3 line_dark;
+uniform vec3 line_gain;
 uniform vec3 pool_center;
 uniform float pool_radius;
 uniform float grid_strength;
@@ -39,12 +43,10 @@ void main() {
 #else
   const float lit = 1.0;
 #endif
-  vec3 floor_light = floor_color * (0.42 + 0.58 * lit);
   float grid = max(0.75 * Line(p, footprint, 1.0, 0.007),
                    0.26 * near_fade * Line(p, footprint, 0.25, 0.004));
-  floor_light = mix(floor_light, line_color * (0.35 + 0.65 * lit), grid_strength * grid);
-
-  vec3 color = mix(room_color, Encode(floor_light), pool * far_fade);
+  vec3 color = mix(floor_dark + lit * floor_gain, line_dark + lit * line_gain, grid_strength * grid);
+  color = mix(room_color, color, pool * far_fade);
   vec2 d = gl_FragCoord.xy - picture_center;
   color *= 1.0 - vignette * dot(d, d);
   pixel = vec4(color + Dither(gl_FragCoord.xy), 1.0);

@@ -42,13 +42,13 @@ constexpr Line kLines[] = {
 void ShowKeys(Studio& studio) {
   if (!studio.show_keys) return;
   const Rect& view = studio.layout().viewport;
-  const float width = Px(360.0f);
+  const float width = Px(400.0f);
   const float height = Px(18.0f) + Px(22.0f) * static_cast<float>(std::size(kLines));
-  const Rect rect{view.x + 0.5f * (view.width - width), view.y + 0.5f * (view.height - height),
+  const Rect rect{view.x + 0.5f * (view.width - width), 0.5f * (studio.layout().status.y - height),
                   width, height};
   ImGui::SetNextWindowFocus();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6.0f));
-  BeginPanel("keys", rect, look::kRaised);
+  BeginPanel("keys", rect, look::kRaised, 12.0f, true);
   ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                       {Px(8.0f), Px(22.0f) - ImGui::GetTextLineHeight()});

@@ -78,7 +78,8 @@ unsigned Packed(const glm::vec3& srgb, float alpha) {
   return ImGui::ColorConvertFloat4ToU32(Vec(srgb, alpha));
 }
 
-bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, float padding) {
+bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, float padding,
+                bool above_others) {
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({std::max(rect.width, 1.0f), std::max(rect.height, 1.0f)});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, Vec(ground));
@@ -86,7 +87,8 @@ bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, flo
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+                   (above_others ? 0 : ImGuiWindowFlags_NoBringToFrontOnFocus) |
+                   ImGuiWindowFlags_NoNav);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
   return rect.width >= 2.0f && rect.height >= 2.0f;

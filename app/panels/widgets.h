@@ -16,8 +16,9 @@ float Px(float size);
 unsigned Packed(const glm::vec3& srgb, float alpha = 1.0f);
 
 /// Begins a borderless panel that fills a rectangle. False when it is folded away; EndPanel is
-/// called either way.
-bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, float padding = 12.0f);
+/// called either way. Panels do not overlap, but for a card that lies above the others.
+bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, float padding = 12.0f,
+                bool above_others = false);
 void EndPanel();
 
 /// A heading of a section, with room above it.
