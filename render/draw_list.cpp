@@ -132,7 +132,7 @@ void DrawList::Build(const StageView& view, const CharacterStore& characters) {
     }
     if (figure.markers) AddMarkers(figure, eye);
     for (const ContactGlow& glow : figure.contacts) {
-      glows.push_back({glm::vec4(glm::vec3(glow.position_ws + figure.offset_ws), 0.085f),
+      glows.push_back({glm::vec4(glm::vec3(glow.position_ws + figure.offset_ws), glow.radius),
                        glm::vec4(glow.color, std::clamp(glow.strength, 0.0f, 1.0f))});
     }
     if (!figure.name.empty()) AddPlate(figure, characters, view.camera);

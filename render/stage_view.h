@@ -59,6 +59,7 @@ struct MarkerPart {
 struct ContactGlow {
   Vec3 position_ws{0.0};
   float strength = 1.0f;  // 0 to 1
+  float radius = 0.085f;  // metres
   glm::vec3 color = look::kContact;
 };
 

@@ -7,6 +7,24 @@
 #include "core/metrics/surface_gap.h"
 
 namespace ego {
+namespace {
+
+constexpr double kRadius = 0.042;  // shares of height
+constexpr double kBrightest = 0.6;
+
+// Light adds up: of spots that would cover each other, from `own` on, only the strongest is kept.
+void AppendApart(const ContactGlow& glow, std::size_t own, std::vector<ContactGlow>& glows) {
+  for (std::size_t i = own; i < glows.size(); ++i) {
+    if (glm::distance(glows[i].position_ws, glow.position_ws) > static_cast<double>(glow.radius)) {
+      continue;
+    }
+    if (glow.strength > glows[i].strength) glows[i] = glow;
+    return;
+  }
+  glows.push_back(glow);
+}
+
+}  // namespace
 
 double GlowStrength(double gap, double height) {
   constexpr double kTouching = 0.005;
@@ -19,6 +37,7 @@ double GlowStrength(double gap, double height) {
 void AppendContactGlows(const Body& body, const Pose& pose, double scale,
                         std::vector<ContactGlow>& glows) {
   const MeasuredBody measured(body, pose);
+  const std::size_t own = glows.size();
   for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
     const std::size_t side = Index(arm);
     struct Spot {
@@ -30,12 +49,11 @@ void AppendContactGlows(const Body& body, const Pose& pose, double scale,
         Spot{measured.pose.Position(JointsOf(arm).end), body.surface.hand[side].half_thickness}};
     for (const Spot& spot : spots) {
       const double gap = SurfaceGap(measured, arm, spot.place) - spot.depth;
-      const double strength = GlowStrength(gap, body.height);
-      if (strength <= 0.0) continue;
       ContactGlow glow;
       glow.position_ws = scale * spot.place;
-      glow.strength = static_cast<float>(0.85 * strength);
-      glows.push_back(glow);
+      glow.strength = static_cast<float>(kBrightest * GlowStrength(gap, body.height));
+      glow.radius = static_cast<float>(kRadius * scale * body.height);
+      if (glow.strength > 0.0f) AppendApart(glow, own, glows);
     }
   }
 }
