@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,9 @@ namespace fs = std::filesystem;
 class RememberedFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / "ego-remembered-test";
+    // Tests run side by side: each has a folder of its own.
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("ego-remembered-") + test->name());
     fs::remove_all(folder_);
     path_ = folder_ / "deep" / "window.json";
   }
