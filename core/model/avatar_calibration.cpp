@@ -33,9 +33,11 @@ std::string_view Name(PickState state) {
     case PickState::kDoubtful:
       return "doubtful";
     case PickState::kPicked:
+      return "picked";
+    case PickState::kConfirmed:
       break;
   }
-  return "picked";
+  return "confirmed";
 }
 
 std::string_view Name(LimbSegment segment) { return kSegmentNames[Index(segment)]; }
@@ -99,6 +101,7 @@ CalibrationSummary Summarize(const AvatarCalibration& calibration) {
         ++summary.doubtful;
         break;
       case PickState::kPicked:
+      case PickState::kConfirmed:
         ++summary.picked;
         break;
     }

@@ -9,23 +9,29 @@
 
 #include "core/body/body_surface.h"
 #include "core/model/character.h"
+#include "core/model/joint_override.h"
 #include "core/model/mesh_point.h"
 
 namespace ego {
 
 enum class PickState : std::uint8_t {
-  kMissing,   // no place known: the template's stands in
-  kProposed,  // found by the studio
-  kDoubtful,  // found by the studio, or carried over; a person should look
-  kPicked,    // clicked or confirmed by a person
+  kMissing,    // no place known: the template's stands in
+  kProposed,   // found by the studio
+  kDoubtful,   // found by the studio, or carried over; a person should look
+  kPicked,     // clicked by a person
+  kConfirmed,  // found by the studio, looked at by a person
 };
 std::string_view Name(PickState state);
+/// A person stands for it: picked or confirmed.
+constexpr bool Settled(PickState state) {
+  return state == PickState::kPicked || state == PickState::kConfirmed;
+}
 
 /// One picked or proposed place on the skin.
 struct CalibrationPoint {
   MeshPoint place;
   PickState state = PickState::kMissing;
-  double confidence = 0.0;  // 0 to 1; 1 for what a person picked
+  double confidence = 0.0;  // 0 to 1; 1 for what a person picked or confirmed
   std::string reason;       // why it is doubtful or missing, one clause; else empty
 };
 
@@ -63,6 +69,9 @@ struct AvatarCalibration {
   std::array<SegmentCalibration, kSegmentCount> segment;
   std::array<HandCalibration, 2> hand;  // left, right
   std::array<FootCalibration, 2> foot;  // left, right
+  /// Which node plays which joint where a person mended the map; places and lengths above are
+  /// those of the mended character.
+  JointOverrides joint_override;
 
   CalibrationPoint& At(SamplePoint p) { return sample[Index(p)]; }
   const CalibrationPoint& At(SamplePoint p) const { return sample[Index(p)]; }
@@ -88,7 +97,7 @@ void UpdateThickness(const Character& character, AvatarCalibration& calibration)
 
 /// How sure the calibration is as a whole, and how many points a person should look at.
 struct CalibrationSummary {
-  std::size_t picked = 0;
+  std::size_t picked = 0;  // or confirmed
   std::size_t proposed = 0;
   std::size_t doubtful = 0;
   std::size_t missing = 0;

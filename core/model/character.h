@@ -26,7 +26,7 @@ struct Material {
   glm::vec4 base_color{1.0f};  // linear, multiplies the image
   int base_color_image = -1;   // into Character::images
   bool double_sided = false;
-  bool alpha_mask = false;     // discard below alpha_cutoff
+  bool alpha_mask = false;  // discard below alpha_cutoff
   float alpha_cutoff = 0.5f;
   bool blend = false;
 };
@@ -46,8 +46,8 @@ struct MeshPart {
     std::array<std::uint16_t, kInfluences> entry{};
     std::array<float, kInfluences> weight{};
   };
-  std::vector<Influences> influences;     // one per vertex
-  std::vector<std::uint32_t> triangles;   // three per triangle, within range
+  std::vector<Influences> influences;    // one per vertex
+  std::vector<std::uint32_t> triangles;  // three per triangle, within range
 };
 
 /// One skin joint of the character: rigid meshes have one of their own with an identity-like
@@ -60,8 +60,8 @@ struct PaletteEntry {
 /// A rigged character as a loader hands it over, ready to be posed and drawn.
 struct Character {
   std::string name;
-  std::string source_path;   // the file it came from; empty for generated ones
-  JointTree nodes;           // every node of the file's scene, parents first
+  std::string source_path;  // the file it came from; empty for generated ones
+  JointTree nodes;          // every node of the file's scene, parents first
   std::vector<PaletteEntry> palette;
   std::vector<MeshPart> parts;
   std::vector<Material> materials;

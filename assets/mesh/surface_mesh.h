@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/math.h"
+#include "core/model/character.h"
+#include "core/model/mesh_point.h"
+
+namespace ego {
+
+/// A closed or open chain of places around a limb: where a plane cuts the skin.
+struct SurfaceRing {
+  std::vector<MeshPoint> place;   // in order around the axis
+  std::vector<Vec3> position_ms;  // of each, canonical pose
+  bool closed = false;            // else the skin has a gap there
+  double radius = 0.0;            // mean distance from the axis, weighted by length, metres
+  double covered = 0.0;           // share of the full turn that it goes around the axis
+};
+
+/// The connectivity of a character's skin: a half-edge mesh of all parts, vertices at one place
+/// welded across seams and parts, so that one can go from the shirt to the trousers. Triangles
+/// that would make an edge of three (or turn the surface over) get vertices of their own: they
+/// are on the mesh, but not connected there. Positions are canonical (model space, metres) unless
+/// a posed mesh is passed.
+class SurfaceMesh {
+ public:
+  using Vertex = std::uint32_t;  // welded vertex, below VertexCount()
+
+  explicit SurfaceMesh(const Character& character);
+  ~SurfaceMesh();
+  SurfaceMesh(SurfaceMesh&&) noexcept;
+  SurfaceMesh& operator=(SurfaceMesh&&) noexcept;
+
+  std::size_t VertexCount() const;
+  std::size_t TriangleCount() const;
+  const Vec3& Position(Vertex vertex) const;
+  /// Unit, from the triangles around; zero where they cancel.
+  Vec3 Normal(Vertex vertex) const;
+  /// One of the mesh's corners at this vertex, the first in order of part and triangle.
+  MeshPoint PlaceOf(Vertex vertex) const;
+  /// The vertex nearest to a place among the corners of its triangle, and the vertex nearest to a
+  /// point of the canonical pose.
+  std::optional<Vertex> VertexAt(const MeshPoint& place) const;
+  std::optional<Vertex> Nearest(const Vec3& point_ms) const;
+  bool OnBoundary(Vertex vertex) const;
+  std::vector<Vertex> Neighbours(Vertex vertex) const;
+
+  /// One arrow key: from the vertex nearest to `place` along the mesh edge that best follows
+  /// `direction` (any length but zero, in the space of `posed`; components along the surface's
+  /// normal do not count). Nothing when no edge leads within 75 degrees of it: the edge of the
+  /// mesh.
+  std::optional<MeshPoint> Step(const MeshPoint& place, const Vec3& direction,
+                                const PosedMesh& posed) const;
+
+  /// Walks along the surface by `way` (in the space of `posed`), straight over edges as on the
+  /// unfolded surface; stops at the edge of the mesh. What a drag does between two frames.
+  MeshPoint Walk(const MeshPoint& place, const Vec3& way, const PosedMesh& posed) const;
+
+  /// The place on the other side of the body's middle plane x = MiddleX(): a vertex for a vertex,
+  /// else the nearest skin. Nothing when there is none within `tolerance` metres ("no mirror
+  /// vertex here").
+  std::optional<MeshPoint> MirrorOf(const MeshPoint& place, double tolerance) const;
+  /// Of the canonical skeleton: half-way between shoulders and between hips.
+  double MiddleX() const;
+
+  /// The loop of skin around a line, cut by the plane across it at the share t of the way from
+  /// `start_ms` to `end_ms`. Of several loops the one that goes around the line, among those the
+  /// one nearest to it that is at most `farthest` away on average; only triangles that `joint`
+  /// and its neighbours carry, when `segment` is given.
+  std::optional<SurfaceRing> Ring(LimbSegment segment, double t) const;
+  std::optional<SurfaceRing> Ring(const Vec3& start_ms, const Vec3& end_ms, double t,
+                                  double farthest) const;
+
+  /// Shortest way along mesh edges (Dijkstra), metres; infinity where there is none, and beyond
+  /// `limit`. Never less than the true geodesic distance.
+  double GeodesicDistance(const MeshPoint& from, const MeshPoint& to, double limit = 1e30) const;
+  std::vector<double> GeodesicDistances(Vertex from, double limit = 1e30) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ego
