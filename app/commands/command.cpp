@@ -4,7 +4,8 @@
 namespace ego {
 
 std::vector<Command> AddCommands(CLI::App& program) {
-  return {AddRetargetCommand(program), AddSolveCommand(program), AddRenderCommand(program)};
+  return {AddRetargetCommand(program), AddSolveCommand(program), AddRenderCommand(program),
+          AddPeopleCommand(program)};
 }
 
 }  // namespace ego

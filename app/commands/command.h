@@ -25,6 +25,7 @@ struct Command {
 Command AddRetargetCommand(CLI::App& program);
 Command AddSolveCommand(CLI::App& program);
 Command AddRenderCommand(CLI::App& program);
+Command AddPeopleCommand(CLI::App& program);
 
 /// All verbs, in the order in which --help lists them.
 std::vector<Command> AddCommands(CLI::App& program);

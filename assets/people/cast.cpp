@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "assets/people/person.h"
 
+#include <utility>
+
 namespace ego {
 namespace {
 
@@ -235,10 +237,94 @@ PersonParameters Robot() {
   return m;
 }
 
+/// The performer's clothes and face on a body of other girth or height.
+PersonParameters Slimmer() {
+  PersonParameters m;
+  m.name = "Performer, slimmer";
+  m.upper_arm_radius = 0.039;
+  m.lower_arm_radius = 0.032;
+  m.upper_leg_radius = 0.064;
+  m.lower_leg_radius = 0.045;
+  m.shoulder_width = 0.335;
+  m.chest_width = 0.295;
+  m.chest_depth = 0.20;
+  m.waist_width = 0.245;
+  m.belly_thickness = 0.17;
+  m.hips_width = 0.31;
+  m.hips_depth = 0.205;
+  m.neck_radius = 0.046;
+  m.head_width = 0.158;
+  m.hair = Hair::kCurls;
+  m.skin_color = Srgb(0x9A6A4A);
+  m.hair_color = Srgb(0x2A1F1A);
+  m.shirt_color = Srgb(0xD9A441);
+  return m;
+}
+
+PersonParameters Heavier() {
+  PersonParameters m;
+  m.name = "Performer, heavier";
+  m.upper_arm_radius = 0.060;
+  m.lower_arm_radius = 0.046;
+  m.upper_leg_radius = 0.092;
+  m.lower_leg_radius = 0.061;
+  m.shoulder_width = 0.375;
+  m.hip_joint_width = 0.205;
+  m.chest_width = 0.385;
+  m.chest_depth = 0.285;
+  m.waist_width = 0.385;
+  m.belly_thickness = 0.315;
+  m.hips_width = 0.40;
+  m.hips_depth = 0.275;
+  m.neck_radius = 0.064;
+  m.head_width = 0.178;
+  m.hair = Hair::kCrop;
+  m.skin_color = Srgb(0xE0B090);
+  m.hair_color = Srgb(0x6B4A2E);
+  m.shirt_color = Srgb(0xC98A2E);
+  return m;
+}
+
+PersonParameters Taller() {
+  PersonParameters m;
+  m.name = "Performer, taller";
+  m.height = 1.96;
+  m.arm_length = 0.615;
+  m.leg_length = 0.95;
+  m.ankle_height = 0.086;
+  m.upper_arm_radius = 0.050;
+  m.lower_arm_radius = 0.039;
+  m.upper_leg_radius = 0.080;
+  m.lower_leg_radius = 0.055;
+  m.shoulder_width = 0.39;
+  m.chest_width = 0.355;
+  m.chest_depth = 0.245;
+  m.waist_width = 0.305;
+  m.belly_thickness = 0.22;
+  m.hips_width = 0.36;
+  m.neck_length = 0.062;
+  m.head_height = 0.25;
+  m.hand_length = 0.205;
+  m.foot_length = 0.295;
+  m.hair = Hair::kShort;
+  m.skin_color = Srgb(0x6F4630);
+  m.hair_color = Srgb(0x1E1714);
+  m.shirt_color = Srgb(0xE9B45C);
+  return m;
+}
+
 }  // namespace
 
 std::vector<PersonParameters> DemoCast() {
   return {PersonParameters{}, Child(), Alien(), Woman(), BigBelly(), Thin(), Robot()};
+}
+
+std::vector<PersonParameters> StudioCast() {
+  std::vector<PersonParameters> cast = DemoCast();
+  for (PersonParameters variant : {Slimmer(), Heavier(), Taller()}) {
+    cast.push_back(std::move(variant));
+  }
+  return cast;
 }
 
 }  // namespace ego

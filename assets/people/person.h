@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/base/result.h"
 #include "core/body/body.h"
 #include "core/model/character.h"
 
@@ -17,7 +18,7 @@ enum class PersonStyle {
   kRobot,  // closed parts, each rigid on one joint
 };
 
-enum class Hair { kNone, kShort, kBob, kBun };
+enum class Hair { kNone, kShort, kCrop, kBob, kBun, kCurls };
 
 /// The page of measurements a person is made from. Lengths in metres; the defaults are the
 /// performer's. Limb radii are means over the middle of the segment, clothes included.
@@ -64,9 +65,12 @@ struct PersonParameters {
   // sRGB in [0, 1]
   glm::vec3 skin_color{0.80f, 0.58f, 0.45f};
   glm::vec3 shirt_color{0.914f, 0.635f, 0.231f};
+  glm::vec3 trim_color{0.45f, 0.27f, 0.10f};  // collar and cuffs
   glm::vec3 trouser_color{0.20f, 0.25f, 0.33f};
   glm::vec3 shoe_color{0.86f, 0.86f, 0.84f};
+  glm::vec3 sole_color{0.30f, 0.31f, 0.33f};
   glm::vec3 hair_color{0.29f, 0.19f, 0.13f};
+  glm::vec3 eye_color{0.36f, 0.24f, 0.15f};  // of the iris
 };
 
 /// A generated character together with its calibration, known exactly.
@@ -83,6 +87,14 @@ struct Person {
 /// The mesh is closed; its parts (skin, shirt, ...) meet in vertices of equal position and weights.
 /// Nodes: the 22 joints (VRM 1.0 names), fingertips and toe tips; all world-aligned.
 Person MakePerson(const PersonParameters& parameters);
+
+/// Whether a person can be made of these measurements: each within its range, and together such
+/// that a trunk is left between legs and head. The sentence names the measurement and its range.
+Result<void> Validate(const PersonParameters& parameters);
+
+/// The whole cast. The performer comes first, then those of DemoCast, then the performer's slimmer,
+/// heavier and taller variants.
+std::vector<PersonParameters> StudioCast();
 
 /// The cast of the demo, the performer first, then six avatars of different proportions: child,
 /// alien and woman with the measurements of the paper's appendix E, a short-armed one with a big

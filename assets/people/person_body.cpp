@@ -253,10 +253,11 @@ Body MeasureBody(const PersonShape& shape, const FigureSurface& surface) {
     const Vec3& wrist = shape.Joint(side == 0 ? J::kLeftHand : J::kRightHand);
     const double reach = m.hand_length;
     HandSurface& hand = body.surface.hand[side];
-    hand.palm_ms =
-        PointAlong(surface, wrist + Vec3{sign * 0.36 * reach, 0.0, 0.0}, down).position_ms;
+    const Vec3 middle = wrist + Vec3{sign * 0.36 * reach, 0.0, 0.0};
+    hand.palm_ms = PointAlong(surface, middle, down).position_ms;
     hand.palm_normal_ms = down;
-    hand.half_thickness = wrist.y - hand.palm_ms.y;
+    const Vec3 back = PointAlong(surface, middle, kUp).position_ms;
+    hand.half_thickness = 0.5 * glm::distance(hand.palm_ms, back);
     // Just short of the tip, where a finger pad is.
     hand.fingertip_ms =
         PointAlong(surface, wrist + reach * Vec3{sign * 0.965, -0.045, 0.067}, down).position_ms;
