@@ -209,6 +209,10 @@ bool Studio::TakeInLoaded() {
   return any;
 }
 
+void Studio::EnterWorkspace(Workspace workspace) { workspace_ = workspace; }
+
+void Studio::AskToClose() { window_->Close(); }
+
 Remembered Studio::ToRemember() const {
   return {window_->width(), window_->height(), layout_, overlays_};
 }
@@ -237,6 +241,7 @@ void Studio::RunFrame() {
   bool changed = TakeInLoaded();
   if (!window_->dropped().empty()) OpenFiles(window_->dropped());
   HandleKeys();
+  if (window_->TakeCloseRequest()) AskToClose();
   changed |= stage_.Fetch();
   if (message_ && message_->kind == Message::Kind::kInfo && now - message_->when > kMessageStays) {
     message_.reset();
@@ -259,6 +264,7 @@ void Studio::RunFrame() {
   ShowStatusBar(*this);
   ShowSplitters(*this);
   ShowKeys(*this);
+  palette_.Show(*this);
   DrawStage();
   gui_.End();
   window_->Present();

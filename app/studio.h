@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "app/loading/background_loader.h"
 #include "app/panels/frame_layout.h"
+#include "app/panels/palette.h"
 #include "app/remembered.h"
 #include "app/stage/stage_thread.h"
 #include "app/view/stage_picture.h"
@@ -37,6 +39,9 @@ struct AvatarEntry {
   glm::vec3 color{1.0f};  // sRGB; keeps it in every view
   bool visible = true;
 };
+
+/// What the window is used for at the moment.
+enum class Workspace { kCalibrate, kPerform };
 
 /// A sentence for the user.
 struct Message {
@@ -76,6 +81,13 @@ class Studio {
   void UndoRemove();
   bool can_undo() const { return !removed_.empty(); }
 
+  // Where one works.
+  Workspace workspace() const { return workspace_; }
+  void EnterWorkspace(Workspace workspace);
+  Palette& palette() { return palette_; }
+  /// Closes the window, or asks first where something would be lost.
+  void AskToClose();
+
   // What plays.
   StageThread& stage() { return stage_; }
   const StageFrame& frame() const { return stage_.frame(); }
@@ -98,6 +110,8 @@ class Studio {
   /// Keeps the studio from framing the stage by itself when avatars come and go.
   void CameraMovedByHand() { frame_when_ready_ = false; }
   void FrameAll();
+  /// The same, and again whenever someone comes or goes.
+  void FrameEveryone();
   void FrameSelected();
   void LookFrom(StandardView view);
 
@@ -112,6 +126,8 @@ class Studio {
   void Restore(const Remembered& remembered);
 
   bool show_keys = false;  // the list of keys is up
+  /// What the mouse does in this workspace: how, what.
+  std::vector<std::pair<std::string, std::string>> MouseHelp() const;
 
  private:
   bool TakeInLoaded();
@@ -136,6 +152,8 @@ class Studio {
   std::size_t next_color_ = 0;
   std::vector<std::variant<TakeEntry, AvatarEntry>> removed_;
 
+  Workspace workspace_ = Workspace::kPerform;
+  Palette palette_;
   Overlays overlays_;
   Camera camera_;
   double heading_ = 0.0;  // of the take that the camera's yaw was last turned for

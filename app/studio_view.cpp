@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The half of the studio that the eye and the keyboard meet.
-#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
 
+#include "app/actions/action.h"
 #include "app/studio.h"
 
 namespace ego {
@@ -82,102 +82,25 @@ void Studio::LookFrom(StandardView view) {
   FrameAll();
 }
 
+void Studio::FrameEveryone() {
+  FrameAll();
+  frame_when_ready_ = true;
+}
+
 void Studio::HandleKeys() {
-  if (ImGui::GetIO().WantTextInput) return;
-  const auto flip = [](bool& value) { value = !value; };
   for (const KeyPress& press : window_->presses()) {
     last_change_ = std::chrono::steady_clock::now();
-    if (press.control) {
-      if (press.key == GLFW_KEY_Z) UndoRemove();
-      if (press.key == GLFW_KEY_Q && !press.repeated) window_->Close();
-      continue;
-    }
-    const std::ptrdiff_t step = press.shift ? 10 : 1;
-    switch (press.key) {
-      case GLFW_KEY_LEFT:
-        Step(-step);
-        continue;
-      case GLFW_KEY_RIGHT:
-        Step(step);
-        continue;
-      default:
-        break;
-    }
-    if (press.repeated) continue;
-    switch (press.key) {
-      case GLFW_KEY_SPACE:
-        TogglePlaying();
-        break;
-      case GLFW_KEY_HOME:
-        stage_.Seek(0);
-        break;
-      case GLFW_KEY_END:
-        if (current_take()) stage_.Seek(current_take()->take.motion->poses.size() - 1);
-        break;
-      case GLFW_KEY_L:
-        SetLoop(!loop_);
-        break;
-      case GLFW_KEY_F:
-        FrameSelected();
-        break;
-      case GLFW_KEY_A:
-        FrameAll();
-        frame_when_ready_ = true;
-        break;
-      case GLFW_KEY_1:
-      case GLFW_KEY_KP_1:
-        LookFrom(StandardView::kFront);
-        break;
-      case GLFW_KEY_3:
-      case GLFW_KEY_KP_3:
-        LookFrom(StandardView::kSide);
-        break;
-      case GLFW_KEY_7:
-      case GLFW_KEY_KP_7:
-        LookFrom(StandardView::kTop);
-        break;
-      case GLFW_KEY_0:
-      case GLFW_KEY_KP_0:
-        LookFrom(StandardView::kThreeQuarter);
-        break;
-      case GLFW_KEY_B:
-        flip(overlays_.surface);
-        break;
-      case GLFW_KEY_M:
-        flip(overlays_.markers);
-        break;
-      case GLFW_KEY_K:
-        flip(overlays_.skeleton);
-        break;
-      case GLFW_KEY_C:
-        flip(overlays_.crude);
-        break;
-      case GLFW_KEY_T:
-        flip(overlays_.contacts);
-        break;
-      case GLFW_KEY_S:
-        flip(overlays_.true_sizes);
-        break;
-      case GLFW_KEY_N:
-        flip(overlays_.names);
-        break;
-      case GLFW_KEY_TAB:
-        layout_.ToggleAll();
-        break;
-      case GLFW_KEY_SLASH:
-        show_keys = !show_keys;
-        break;
-      case GLFW_KEY_ESCAPE:
-        if (show_keys) {
-          show_keys = false;
-        } else {
-          selection_.reset();
-        }
-        break;
-      default:
-        break;
-    }
+    // What is written into a field, or into the palette, means nothing else.
+    if (ImGui::GetIO().WantTextInput || palette_.is_open()) return;
+    RunPressed(press, *this);
   }
+}
+
+std::vector<std::pair<std::string, std::string>> Studio::MouseHelp() const {
+  return {{"Drag", "turn"},
+          {"Shift+drag", "move, as does the right button"},
+          {"Wheel", "closer, farther"},
+          {"Click", "select a figure"}};
 }
 
 }  // namespace ego

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/actions/action.h"
 #include "app/panels/panels.h"
 #include "app/panels/widgets.h"
 #include "app/studio.h"
@@ -9,55 +15,81 @@
 namespace ego {
 namespace {
 
+constexpr float kRow = 21.0f;
+constexpr float kColumn = 330.0f;
+
 struct Line {
-  const char* keys;
-  const char* what;
+  std::string keys;  // empty: `what` is a heading
+  std::string what;
 };
-constexpr Line kLines[] = {
-    {"Space", "play, pause"},
-    {"Left, Right", "one frame; with Shift ten"},
-    {"Home, End", "first, last frame"},
-    {"L", "loop"},
-    {"F", "frame what is selected"},
-    {"A", "frame everyone"},
-    {"1, 3, 7", "from the front, the side, above"},
-    {"0", "three-quarter view"},
-    {"B", "body surface of the performer"},
-    {"K", "captured skeleton"},
-    {"M", "markers"},
-    {"C", "crude surfaces over avatars"},
-    {"T", "spots where hands touch"},
-    {"N", "names"},
-    {"S", "true sizes"},
-    {"Tab", "fold all panels away"},
-    {"Drag", "turn; with Shift or the right button move"},
-    {"Wheel", "closer, farther"},
-    {"Ctrl+Z", "bring back what was removed"},
-    {"Ctrl+Q", "close the window"},
-    {"Esc", "close this, drop the selection"},
-};
+
+// What the keys do in this workspace, group by group, whether or not it is possible just now.
+std::vector<std::vector<Line>> Groups(const Studio& studio) {
+  const bool performs = studio.workspace() == Workspace::kPerform;
+  const auto other = performs ? Action::Where::kCalibrate : Action::Where::kPerform;
+  std::vector<std::vector<Line>> groups;
+  for (const Action& action : Actions()) {
+    if (action.where == other || action.keys.empty()) continue;
+    const std::string heading(action.group);
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const auto& g) { return g.front().what == heading; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {Line{"", heading}});
+    group->push_back({KeysOf(action), std::string(action.name)});
+  }
+  groups.push_back({{"", "Mouse"}});
+  for (const auto& [keys, what] : studio.MouseHelp()) groups.back().push_back({keys, what});
+  return groups;
+}
+
+// Into two columns that are about equally long, groups whole.
+std::array<std::vector<Line>, 2> Columns(const Studio& studio) {
+  const auto groups = Groups(studio);
+  std::size_t all = 0;
+  for (const auto& group : groups) all += group.size();
+  std::array<std::vector<Line>, 2> columns;
+  for (const auto& group : groups) {
+    const bool full = columns[0].size() + group.size() / 2 > all / 2;
+    std::vector<Line>& to = columns[full ? 1 : 0];
+    to.insert(to.end(), group.begin(), group.end());
+  }
+  return columns;
+}
 
 }  // namespace
 
 void ShowKeys(Studio& studio) {
   if (!studio.show_keys) return;
-  const Rect& view = studio.layout().viewport;
-  const float width = Px(400.0f);
-  const float height = Px(18.0f) + Px(22.0f) * static_cast<float>(std::size(kLines));
-  const Rect rect{view.x + 0.5f * (view.width - width), 0.5f * (studio.layout().status.y - height),
-                  width, height};
+  const auto columns = Columns(studio);
+  const auto rows = static_cast<float>(std::max(columns[0].size(), columns[1].size()));
+  const Rect& status = studio.layout().status;
+  const float width = Px(2.0f * kColumn + 24.0f);
+  const float height = Px(20.0f) + rows * Px(kRow);
+  const Rect rect{0.5f * (status.width - width), std::max(0.0f, 0.5f * (status.y - height)), width,
+                  height};
   ImGui::SetNextWindowFocus();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(6.0f));
   BeginPanel("keys", rect, look::kRaised, 12.0f, true);
   ImGui::PopStyleVar();
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
-                      {Px(8.0f), Px(22.0f) - ImGui::GetTextLineHeight()});
-  for (const Line& line : kLines) {
-    ImGui::TextUnformatted(line.keys);
-    ImGui::SameLine(Px(124.0f));
-    ImGui::TextColored({look::kQuiet.x, look::kQuiet.y, look::kQuiet.z, 1.0f}, "%s", line.what);
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (std::size_t r = 0; r < columns[c].size(); ++r) {
+      const Line& line = columns[c][r];
+      const float x = corner.x + static_cast<float>(c) * Px(kColumn);
+      ImGui::SetCursorScreenPos({x, corner.y + static_cast<float>(r) * Px(kRow)});
+      if (line.keys.empty()) {
+        ImGui::PushFont(Gui::Current().fonts().section);
+        ImGui::TextUnformatted(line.what.c_str());
+        ImGui::PopFont();
+        continue;
+      }
+      ImGui::PushFont(Gui::Current().fonts().small);
+      ImGui::TextUnformatted(line.keys.c_str());
+      ImGui::SetCursorScreenPos({x + Px(104.0f), corner.y + static_cast<float>(r) * Px(kRow)});
+      ImGui::TextColored({look::kQuiet.x, look::kQuiet.y, look::kQuiet.z, 1.0f}, "%s",
+                         line.what.c_str());
+      ImGui::PopFont();
+    }
   }
-  ImGui::PopStyleVar();
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsWindowHovered()) {
     studio.show_keys = false;
   }

@@ -5,6 +5,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <cfloat>
 #include <cstring>
 #include <vector>
 
@@ -114,6 +116,12 @@ void Gui::Begin() {
   if (window_.content_scale() != scale_) Rebuild(window_.content_scale());
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  // As of the last poll, not as of now: a click counts where it was made.
+  const Pointer& pointer = window_.pointer();
+  const bool held = std::any_of(pointer.down.begin(), pointer.down.end(), [](bool d) { return d; });
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = pointer.inside || held ? ImVec2(pointer.x, pointer.y) : ImVec2(-FLT_MAX, -FLT_MAX);
+  std::copy(pointer.down.begin(), pointer.down.end(), io.MouseDown);
   ImGui::NewFrame();
   ImGui::PushFont(fonts_.body);
 }

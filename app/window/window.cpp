@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace ego {
 
@@ -45,28 +46,38 @@ Window& Window::Of(GLFWwindow* handle) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
 }
 
-// Dear ImGui's handlers are called from ours; without its context there is nobody to tell.
-void Window::InstallCallbacks() {
+void Window::InstallInputCallbacks() {
+  using Kind = Event::Kind;
   glfwSetKeyCallback(handle_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    Of(w).OnKey(key, scancode, action, mods);
+    Of(w).waiting_.push_back({Kind::kKey, 0, 0, key, scancode, action, mods, 0});
   });
   glfwSetCharCallback(handle_, [](GLFWwindow* w, unsigned codepoint) {
-    Of(w).had_input_ = true;
-    if (ImGui::GetCurrentContext()) ImGui_ImplGlfw_CharCallback(w, codepoint);
+    Of(w).waiting_.push_back({Kind::kText, 0, 0, 0, 0, 0, 0, codepoint});
   });
   glfwSetMouseButtonCallback(handle_, [](GLFWwindow* w, int button, int action, int mods) {
-    Of(w).had_input_ = true;
-    if (ImGui::GetCurrentContext()) ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+    // GLFW would tell where the pointer is by now, not where it was when the button moved.
+    Window& window = Of(w);
+    if (!window.has_moved_) glfwGetCursorPos(w, &window.last_x_, &window.last_y_);
+    window.waiting_.push_back(
+        {Kind::kButton, window.last_x_, window.last_y_, button, 0, action, mods, 0});
   });
   glfwSetScrollCallback(handle_, [](GLFWwindow* w, double x, double y) {
-    Of(w).had_input_ = true;
-    if (ImGui::GetCurrentContext()) ImGui_ImplGlfw_ScrollCallback(w, x, y);
+    Of(w).waiting_.push_back({Kind::kScroll, x, y, 0, 0, 0, 0, 0});
   });
-  glfwSetCursorPosCallback(handle_, [](GLFWwindow* w, double, double) { Of(w).had_input_ = true; });
+  glfwSetCursorPosCallback(handle_, [](GLFWwindow* w, double x, double y) {
+    Window& window = Of(w);
+    window.has_moved_ = true;
+    window.last_x_ = x;
+    window.last_y_ = y;
+    window.waiting_.push_back({Kind::kMove, x, y, 0, 0, 0, 0, 0});
+  });
   glfwSetCursorEnterCallback(handle_, [](GLFWwindow* w, int entered) {
-    Of(w).had_input_ = true;
-    if (ImGui::GetCurrentContext()) ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+    Of(w).waiting_.push_back({Kind::kEnter, 0, 0, 0, 0, entered, 0, 0});
   });
+}
+
+void Window::InstallCallbacks() {
+  InstallInputCallbacks();
   glfwSetWindowFocusCallback(handle_, [](GLFWwindow* w, int focused) {
     Of(w).had_input_ = true;
     if (ImGui::GetCurrentContext()) ImGui_ImplGlfw_WindowFocusCallback(w, focused);
@@ -85,22 +96,69 @@ void Window::InstallCallbacks() {
     Of(w).had_input_ = true;
     for (int i = 0; i < count; ++i) Of(w).dropped_.emplace_back(paths[i]);
   });
+  glfwSetWindowCloseCallback(handle_, [](GLFWwindow* w) {
+    glfwSetWindowShouldClose(w, GLFW_FALSE);
+    Of(w).had_input_ = true;
+    Of(w).close_requested_ = true;
+  });
 }
 
-void Window::OnKey(int key, int scancode, int action, int mods) {
-  had_input_ = true;
-  if (action == GLFW_RELEASE) {
-    if (std::find(down_this_poll_.begin(), down_this_poll_.end(), key) != down_this_poll_.end()) {
-      held_back_.push_back({key, scancode, mods});
+void Window::OnKey(const Event& event) {
+  if (event.action == GLFW_RELEASE) {
+    const auto& down = down_this_poll_;
+    if (std::find(down.begin(), down.end(), event.key) != down.end()) {
+      held_back_.push_back(event);
       return;
     }
   } else {
-    presses_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0,
-                        (mods & GLFW_MOD_ALT) != 0, action == GLFW_REPEAT});
-    down_this_poll_.push_back(key);
+    presses_.push_back({event.key, (event.mods & GLFW_MOD_SHIFT) != 0,
+                        (event.mods & GLFW_MOD_CONTROL) != 0, (event.mods & GLFW_MOD_ALT) != 0,
+                        event.action == GLFW_REPEAT});
+    down_this_poll_.push_back(event.key);
   }
   if (ImGui::GetCurrentContext()) {
-    ImGui_ImplGlfw_KeyCallback(handle_, key, scancode, action, mods);
+    ImGui_ImplGlfw_KeyCallback(handle_, event.key, event.scancode, event.action, event.mods);
+  }
+}
+
+// Dear ImGui's own handlers are told in the order in which things happened, but for the pointer,
+// which Gui::Begin takes from here; without its context there is nobody to tell.
+void Window::HandOut() {
+  const bool gui = ImGui::GetCurrentContext() != nullptr;
+  bool moved = false;
+  while (!waiting_.empty()) {
+    const Event event = waiting_.front();
+    // What lies under the pointer must be known before a button goes down on it.
+    if (event.kind == Event::Kind::kButton && event.action == GLFW_PRESS && moved) return;
+    waiting_.pop_front();
+    had_input_ = true;
+    switch (event.kind) {
+      case Event::Kind::kMove:
+        pointer_.x = static_cast<float>(event.x);
+        pointer_.y = static_cast<float>(event.y);
+        pointer_.inside = true;
+        moved = true;
+        break;
+      case Event::Kind::kEnter:
+        pointer_.inside = event.action != 0;
+        if (gui) ImGui_ImplGlfw_CursorEnterCallback(handle_, event.action);
+        break;
+      case Event::Kind::kButton:
+        pointer_.x = static_cast<float>(event.x);
+        pointer_.y = static_cast<float>(event.y);
+        if (event.key < 0 || event.key >= static_cast<int>(pointer_.down.size())) break;
+        pointer_.down[static_cast<std::size_t>(event.key)] = event.action == GLFW_PRESS;
+        return;
+      case Event::Kind::kScroll:
+        if (gui) ImGui_ImplGlfw_ScrollCallback(handle_, event.x, event.y);
+        break;
+      case Event::Kind::kKey:
+        OnKey(event);
+        break;
+      case Event::Kind::kText:
+        if (gui) ImGui_ImplGlfw_CharCallback(handle_, event.codepoint);
+        break;
+    }
   }
 }
 
@@ -110,17 +168,20 @@ void Window::Poll(double patience_s) {
   down_this_poll_.clear();
   had_input_ = !held_back_.empty();
   if (ImGui::GetCurrentContext()) {
-    for (const HeldBack& up : held_back_) {
+    for (const Event& up : held_back_) {
       ImGui_ImplGlfw_KeyCallback(handle_, up.key, up.scancode, GLFW_RELEASE, up.mods);
     }
   }
   held_back_.clear();
-  if (patience_s > 0.0) {
+  if (patience_s > 0.0 && waiting_.empty()) {
     glfwWaitEventsTimeout(patience_s);
   } else {
     glfwPollEvents();
   }
+  HandOut();
 }
+
+bool Window::TakeCloseRequest() { return std::exchange(close_requested_, false); }
 
 void Window::Present() { glfwSwapBuffers(handle_); }
 bool Window::ShouldClose() const { return glfwWindowShouldClose(handle_) != 0; }

@@ -89,7 +89,7 @@ bool RunUntil(Studio& studio, const std::function<bool()>& wanted) {
 
 // All that was commanded has been done and fetched.
 bool Settled(Studio& studio) {
-  for (int i = 0; i < 3; ++i) studio.RunFrame();
+  for (int i = 0; i < 3 || studio.window().has_waiting_input(); ++i) studio.RunFrame();
   return RunUntil(studio,
                   [&] { return studio.frame().commands_done == studio.stage().commands_given(); });
 }
