@@ -12,20 +12,27 @@
 
 namespace ego {
 
-/// A closed or open chain of places around a limb: where a plane cuts the skin.
+/// A closed or open chain of places around a line: where a plane cuts the skin.
 struct SurfaceRing {
-  std::vector<MeshPoint> place;   // in order around the axis
+  std::vector<MeshPoint> place;   // in order; on mesh edges
   std::vector<Vec3> position_ms;  // of each, canonical pose
   bool closed = false;            // else the skin has a gap there
-  double radius = 0.0;            // mean distance from the axis, weighted by length, metres
-  double covered = 0.0;           // share of the full turn that it goes around the axis
+  double radius = 0.0;            // mean distance from the line, weighted by length, metres
+  double covered = 0.0;           // share of the full turn that it goes around the line
+
+  /// That many places at equal distances along the ring, the first at its beginning.
+  std::vector<MeshPoint> Even(std::size_t count) const;
+
+  /// Per place: where the chain leaves that place's triangle (the same point as the next place,
+  /// by the weights of this triangle).
+  std::vector<MeshPoint> leave;
 };
 
 /// The connectivity of a character's skin: a half-edge mesh of all parts, vertices at one place
-/// welded across seams and parts, so that one can go from the shirt to the trousers. Triangles
-/// that would make an edge of three (or turn the surface over) get vertices of their own: they
-/// are on the mesh, but not connected there. Positions are canonical (model space, metres) unless
-/// a posed mesh is passed.
+/// welded across seams and parts, so that one can go from the shirt to the trousers. Where three
+/// triangles share an edge the third is joined to the others at its corners only: steps and
+/// distances pass, walks and rings end. Positions are canonical (model space, metres) unless a
+/// posed mesh is passed.
 class SurfaceMesh {
  public:
   using Vertex = std::uint32_t;  // welded vertex, below VertexCount()
@@ -60,17 +67,18 @@ class SurfaceMesh {
   /// unfolded surface; stops at the edge of the mesh. What a drag does between two frames.
   MeshPoint Walk(const MeshPoint& place, const Vec3& way, const PosedMesh& posed) const;
 
-  /// The place on the other side of the body's middle plane x = MiddleX(): a vertex for a vertex,
-  /// else the nearest skin. Nothing when there is none within `tolerance` metres ("no mirror
-  /// vertex here").
+  /// The place on the other side of the body's middle plane x = MiddleX(): for a vertex the
+  /// nearest vertex, one that faces the mirrored way where there is, else the nearest skin.
+  /// Nothing when there is none within `tolerance` metres ("no mirror vertex here").
   std::optional<MeshPoint> MirrorOf(const MeshPoint& place, double tolerance) const;
   /// Of the canonical skeleton: half-way between shoulders and between hips.
   double MiddleX() const;
 
   /// The loop of skin around a line, cut by the plane across it at the share t of the way from
-  /// `start_ms` to `end_ms`. Of several loops the one that goes around the line, among those the
-  /// one nearest to it that is at most `farthest` away on average; only triangles that `joint`
-  /// and its neighbours carry, when `segment` is given.
+  /// `start_ms` to `end_ms`. Of the loops that go around the line (by more than half a turn) and
+  /// are at most `farthest` from it on average, the outermost of those that lie on each other: one
+  /// half as far again as the one below it is loose cloth. Nothing when there is none. A segment
+  /// is its bone, with half its length for `farthest`.
   std::optional<SurfaceRing> Ring(LimbSegment segment, double t) const;
   std::optional<SurfaceRing> Ring(const Vec3& start_ms, const Vec3& end_ms, double t,
                                   double farthest) const;

@@ -123,6 +123,65 @@ void MeshBvh::Build(std::uint32_t begin, std::uint32_t end) {
   Build(middle, end);
 }
 
+void MeshBvh::FitLeaf(Node& node) const {
+  node.low = Vec3{kInfinity};
+  node.high = Vec3{-kInfinity};
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+    const Triangle& t = triangles_[i];
+    node.low = glm::min(node.low, glm::min(t.a, glm::min(t.b, t.c)));
+    node.high = glm::max(node.high, glm::max(t.a, glm::max(t.b, t.c)));
+  }
+}
+
+void MeshBvh::Refit(const Character& character, const PosedMesh& mesh) {
+  for (Triangle& t : triangles_) {
+    const auto p = static_cast<std::size_t>(t.part);
+    const std::uint32_t* corner = &character.parts[p].triangles[3 * std::size_t{t.index}];
+    const std::vector<Vec3>& position = mesh.position_ws[p];
+    t.a = position[corner[0]];
+    t.b = position[corner[1]];
+    t.c = position[corner[2]];
+  }
+  // Children come after their parent.
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    if (node.count > 0) {
+      FitLeaf(node);
+      continue;
+    }
+    node.low = glm::min(nodes_[n + 1].low, nodes_[node.first].low);
+    node.high = glm::max(nodes_[n + 1].high, nodes_[node.first].high);
+  }
+}
+
+std::optional<MeshBvh::Hit> MeshBvh::Cross(const Triangle& t, const Vec3& origin,
+                                           const Vec3& direction, double max_distance) {
+  // Moeller and Trumbore, with a hair's breadth of tolerance at the edges: a ray along the seam of
+  // a symmetric mesh must not slip between its halves.
+  constexpr double kEdge = 1e-9;
+  const Vec3 ab = t.b - t.a;
+  const Vec3 ac = t.c - t.a;
+  const Vec3 p = glm::cross(direction, ac);
+  const double determinant = glm::dot(ab, p);
+  if (determinant == 0.0) return std::nullopt;
+  const Vec3 s = origin - t.a;
+  const double u = glm::dot(s, p) / determinant;
+  if (!(u >= -kEdge && u <= 1.0 + kEdge)) return std::nullopt;
+  const Vec3 q = glm::cross(s, ab);
+  const double v = glm::dot(direction, q) / determinant;
+  if (!(v >= -kEdge && u + v <= 1.0 + kEdge)) return std::nullopt;
+  const double distance = glm::dot(ac, q) / determinant;
+  if (!(distance >= 0.0 && distance <= max_distance)) return std::nullopt;
+  Hit hit;
+  const double uc = std::clamp(u, 0.0, 1.0);
+  const double vc = std::clamp(v, 0.0, 1.0 - uc);
+  hit.place = {t.part, t.index, Vec3{1.0 - uc - vc, uc, vc}};
+  hit.position_ws = t.a + uc * ab + vc * ac;
+  hit.normal_ws = glm::normalize(glm::cross(ab, ac));
+  hit.distance = distance;
+  return hit;
+}
+
 std::vector<MeshBvh::Hit> MeshBvh::AllHits(const Vec3& origin_ws, const Vec3& direction,
                                            double max_distance) const {
   std::vector<Hit> hits;
@@ -141,45 +200,77 @@ std::vector<MeshBvh::Hit> MeshBvh::AllHits(const Vec3& origin_ws, const Vec3& di
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle& t = triangles_[i];
-      // Moeller and Trumbore, with a hair's breadth of tolerance at the edges: a ray along the
-      // seam of a symmetric mesh must not slip between its halves.
-      constexpr double kEdge = 1e-9;
-      const Vec3 ab = t.b - t.a;
-      const Vec3 ac = t.c - t.a;
-      const Vec3 p = glm::cross(direction, ac);
-      const double determinant = glm::dot(ab, p);
-      if (determinant == 0.0) continue;
-      const Vec3 s = origin_ws - t.a;
-      const double u = glm::dot(s, p) / determinant;
-      if (!(u >= -kEdge && u <= 1.0 + kEdge)) continue;
-      const Vec3 q = glm::cross(s, ab);
-      const double v = glm::dot(direction, q) / determinant;
-      if (!(v >= -kEdge && u + v <= 1.0 + kEdge)) continue;
-      const double distance = glm::dot(ac, q) / determinant;
-      if (!(distance >= 0.0 && distance <= max_distance)) continue;
-      Hit hit;
-      const double uc = std::clamp(u, 0.0, 1.0);
-      const double vc = std::clamp(v, 0.0, 1.0 - uc);
-      hit.place = {t.part, t.index, Vec3{1.0 - uc - vc, uc, vc}};
-      hit.position_ws = t.a + uc * ab + vc * ac;
-      hit.normal_ws = glm::normalize(glm::cross(ab, ac));
-      hit.distance = distance;
-      hits.push_back(hit);
+      const auto hit = Cross(triangles_[i], origin_ws, direction, max_distance);
+      if (hit) hits.push_back(*hit);
     }
   }
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
-    if (a.distance != b.distance) return a.distance < b.distance;
-    return std::pair(a.place.part, a.place.triangle) < std::pair(b.place.part, b.place.triangle);
-  });
+  std::sort(hits.begin(), hits.end(), Before);
   return hits;
+}
+
+bool MeshBvh::Before(const Hit& a, const Hit& b) {
+  if (a.distance != b.distance) return a.distance < b.distance;
+  return std::pair(a.place.part, a.place.triangle) < std::pair(b.place.part, b.place.triangle);
 }
 
 std::optional<MeshBvh::Hit> MeshBvh::FirstHit(const Vec3& origin_ws, const Vec3& direction,
                                               double max_distance) const {
-  const std::vector<Hit> hits = AllHits(origin_ws, direction, max_distance);
-  if (hits.empty()) return std::nullopt;
-  return hits.front();
+  std::optional<Hit> first;
+  if (nodes_.empty()) return first;
+  const Vec3 inverse = 1.0 / direction;
+  double limit = max_distance;
+  std::array<std::uint32_t, 64> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t at = stack[--depth];
+    const Node& node = nodes_[at];
+    if (EnterBox(node.low, node.high, origin_ws, inverse, limit) == kInfinity) continue;
+    if (node.count == 0) {
+      // The nearer child is looked at first: what it holds may hide all of the other.
+      const Node& left = nodes_[at + 1];
+      const Node& right = nodes_[node.first];
+      const bool left_first = EnterBox(left.low, left.high, origin_ws, inverse, limit) <=
+                              EnterBox(right.low, right.high, origin_ws, inverse, limit);
+      stack[depth++] = left_first ? node.first : at + 1;
+      stack[depth++] = left_first ? at + 1 : node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const auto hit = Cross(triangles_[i], origin_ws, direction, limit);
+      if (!hit || (first && !Before(*hit, *first))) continue;
+      first = hit;
+      limit = hit->distance;
+    }
+  }
+  return first;
+}
+
+void MeshBvh::VisitCone(const Vec3& origin_ws, const Vec3& direction, double radius, double slope,
+                        const std::function<void(int part, std::uint32_t triangle)>& visit) const {
+  if (nodes_.empty()) return;
+  std::array<std::uint32_t, 64> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t at = stack[--depth];
+    const Node& node = nodes_[at];
+    // The box's ball against the cone, as wide as it is at the ball's far end.
+    const Vec3 to_middle = 0.5 * (node.low + node.high) - origin_ws;
+    const double ball = 0.5 * glm::length(node.high - node.low);
+    const double along = glm::dot(to_middle, direction);
+    if (along + ball < 0.0) continue;
+    const double off = glm::length(to_middle - along * direction);
+    if (off > ball + radius + slope * (along + ball)) continue;
+    if (node.count == 0) {
+      stack[depth++] = at + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      visit(triangles_[i].part, triangles_[i].index);
+    }
+  }
 }
 
 std::optional<MeshBvh::Hit> MeshBvh::Nearest(const Vec3& point_ws) const {

@@ -13,7 +13,8 @@
 namespace ego {
 
 /// Bounding volume hierarchy over the triangles of a posed character: rays and nearest points in
-/// logarithmic time. Degenerate triangles are left out. A snapshot: build again for another pose.
+/// logarithmic time. Degenerate triangles are left out. A snapshot of one pose; Refit follows
+/// another.
 class MeshBvh {
  public:
   /// Only triangles that `use` accepts (all when empty) are put in.
@@ -27,6 +28,11 @@ class MeshBvh {
     double distance = 0.0;  // along the ray; to the query point
   };
 
+  /// Moves the triangles to their places in another pose of the same character and fits the boxes;
+  /// the tree stays as it was built. As exact as a new tree and several times quicker to have;
+  /// queries are slower the farther the pose is from the one it was built in.
+  void Refit(const Character& character, const PosedMesh& mesh);
+
   /// Every crossing of the ray with a triangle, nearest first, at most `max_distance` away. Hits
   /// on a shared edge may come twice. `direction` is unit.
   std::vector<Hit> AllHits(const Vec3& origin_ws, const Vec3& direction, double max_distance) const;
@@ -34,6 +40,16 @@ class MeshBvh {
   /// The nearest crossing.
   std::optional<Hit> FirstHit(const Vec3& origin_ws, const Vec3& direction,
                               double max_distance) const;
+
+  /// Whether anything crosses the ray before `max_distance`.
+  bool AnyHit(const Vec3& origin_ws, const Vec3& direction, double max_distance) const {
+    return FirstHit(origin_ws, direction, max_distance).has_value();
+  }
+
+  /// Triangles whose box comes into a cone about a ray: within `radius + slope * distance` of it.
+  /// Calls visit(part, triangle) for each candidate, some of them outside.
+  void VisitCone(const Vec3& origin_ws, const Vec3& direction, double radius, double slope,
+                 const std::function<void(int part, std::uint32_t triangle)>& visit) const;
 
   /// The place of the skin nearest to a point; nothing when there are no triangles.
   std::optional<Hit> Nearest(const Vec3& point_ws) const;
@@ -55,6 +71,11 @@ class MeshBvh {
   };
 
   void Build(std::uint32_t begin, std::uint32_t end);
+  void FitLeaf(Node& node) const;
+  static std::optional<Hit> Cross(const Triangle& triangle, const Vec3& origin,
+                                  const Vec3& direction, double max_distance);
+  /// Nearer first; at one distance by part and triangle.
+  static bool Before(const Hit& a, const Hit& b);
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;
