@@ -202,12 +202,16 @@ void SumBody(AdaptState& state) {
     sum.initial =
         part(trunk, coordinates.trunk.importance) + part(head, coordinates.head.importance);
   }
-  state.normal_sum = {};
-  for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    const Mat3& frame = state.posed.tangent[t];
-    for (const Limb limb : kLimbs) {
-      state.normal_sum[Index(limb)] += frame * state.egocentric.normal[Index(limb)].triangle[t];
+  for (const Limb limb : kLimbs) {
+    const NormalCoordinates& normal = state.egocentric.normal[Index(limb)];
+    Lanes3 sum;
+    for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
+      const TangentPair& tangent = state.posed.tangent[t];
+      sum += normal.triangle[t].x * state.posed.triangle[t].normal;
+      sum += normal.triangle[t].y * tangent.along;
+      sum += normal.triangle[t].z * tangent.third;
     }
+    state.normal_sum[Index(limb)] = Sum(sum);
   }
 }
 

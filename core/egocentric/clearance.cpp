@@ -31,9 +31,10 @@ ArmSample SampleOf(const Body& body, const PosedBody& posed, Limb arm, std::size
 }
 
 BodyObstacles::BodyObstacles(const Body& body, const PosedBody& posed) : height_(body.height) {
-  const std::span<const Triangle> all(posed.triangle);
-  mesh_ = {all.first(kTrunkTriangleCount), all.subspan(kTrunkTriangleCount)};
-  for (std::size_t k = 0; k < 2; ++k) box_[k] = Box::Of(mesh_[k]);
+  const std::span<const TrianglePair> all(posed.triangle);
+  mesh_ = {all.first(kTrunkPairCount), all.subspan(kTrunkPairCount)};
+  const std::span<const Vec3> sample(posed.sample);
+  box_ = {Box::Of(sample.first(kTrunkSampleCount)), Box::Of(sample.subspan(kTrunkSampleCount))};
   width_ = {0.55 * Width(body, SamplePoint::kLeftWaistSide, SamplePoint::kRightWaistSide),
             0.55 * Width(body, SamplePoint::kLeftEar, SamplePoint::kRightEar)};
 }

@@ -27,7 +27,7 @@ struct BodyObstacles {
   }
 
  private:
-  std::array<std::span<const Triangle>, 2> mesh_;
+  std::array<std::span<const TrianglePair>, 2> mesh_;
   std::array<Box, 2> box_;
   std::array<double, 2> width_;
   double height_;

@@ -22,4 +22,24 @@ inline double Orthogonality(double along, double distance, double softness, doub
   return std::max(cosine, floor);
 }
 
+/// Importances of one point before normalisation: sum, largest, and the largest with the saturation
+/// that counts for gamma (appendix C).
+struct ImportanceTotal {
+  double epsilon;
+  double gamma_epsilon;
+  double sum = 0.0;
+  double max = 0.0;
+  double priority = 0.0;
+
+  /// Adds one and returns it; `gap` between the surfaces in metres.
+  double Add(double gap, double orthogonality) { return Add(gap, orthogonality, epsilon); }
+  double Add(double gap, double orthogonality, double saturation) {
+    const double importance = Proximity(gap, saturation) * orthogonality;
+    sum += importance;
+    max = std::max(max, importance);
+    priority = std::max(priority, Proximity(gap, gamma_epsilon) * orthogonality);
+    return importance;
+  }
+};
+
 }  // namespace ego

@@ -71,17 +71,22 @@ MeshPaths MakeMeshPaths(std::size_t first, std::size_t end, LimbPoint to) {
                    });
   MeshPaths paths;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t joint = Index(from[k]);
     const KinematicPath& path = PathBetween(from[k], to);
-    std::size_t last = 0;
     for (std::size_t i = 0; i < path.length; ++i) {
-      std::size_t column = 0;
-      while (column < paths.length && paths.bone[column] != path.bone[i]) ++column;
-      if (column == paths.length) paths.bone[paths.length++] = path.bone[i];
-      paths.on_path[joint][column] = 1.0;
-      last = std::max(last, column + 1);
+      const auto found = paths.bone.begin() + static_cast<std::ptrdiff_t>(paths.length);
+      if (std::find(paths.bone.begin(), found, path.bone[i]) != found) continue;
+      paths.bone[paths.length++] = path.bone[i];
     }
-    paths.used[joint] = static_cast<std::uint8_t>((last + 1) / 2 * 2);
+  }
+  for (std::size_t t = first; t < end; ++t) {
+    MeshPaths::OfPair& pair = paths.pair[Index(ParentJoint(t - t % 2))];
+    const KinematicPath& path = PathBetween(ParentJoint(t), to);
+    for (std::size_t column = 0; column < paths.length; ++column) {
+      const auto path_end = path.bone.begin() + path.length;
+      if (std::find(path.bone.begin(), path_end, paths.bone[column]) == path_end) continue;
+      pair.on_path[column][t % 2] = 1.0;
+      pair.used = std::max(pair.used, column + 1);
+    }
   }
   return paths;
 }

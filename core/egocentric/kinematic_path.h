@@ -7,6 +7,7 @@
 
 #include "core/body/body_surface.h"
 #include "core/egocentric/limb_point.h"
+#include "core/geometry/lanes.h"
 
 namespace ego {
 
@@ -36,10 +37,13 @@ const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to);
 struct MeshPaths {
   std::array<std::uint8_t, kMaxPathLength> bone{};
   std::size_t length = 0;
-  /// Bones up to the last one of the path from this joint, rounded up to an even number.
-  std::array<std::uint8_t, kJointCount> used{};
-  /// 1 where the path from this joint has the bone, else 0.
-  std::array<std::array<double, kMaxPathLength>, kJointCount> on_path{};
+  /// Of a pair of triangles, by the joint that carries the first: the bones up to the last one that
+  /// one of both paths has, and 1 in a lane where its path has the bone, else 0.
+  struct OfPair {
+    std::size_t used = 0;
+    std::array<Lanes, kMaxPathLength> on_path{};
+  };
+  std::array<OfPair, kJointCount> pair{};
 };
 const MeshPaths& PathsFromTrunk(LimbPoint to);
 const MeshPaths& PathsFromHead(LimbPoint to);

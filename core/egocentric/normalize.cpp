@@ -6,6 +6,7 @@
 
 #include "core/egocentric/clearance.h"
 #include "core/egocentric/importance.h"
+#include "core/egocentric/mesh_relations.h"
 #include "core/egocentric/posed_body.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/smooth.h"
@@ -32,107 +33,6 @@ void NormalizeDistance(const Context& context, const KinematicPath& path, const 
   distance.gap = std::max(0.0, reach - filled) / std::max(tau, 1e-9 * context.body.height);
 }
 
-/// Importances before normalisation are collected here: sum, largest, and the one for gamma.
-struct Importance {
-  double epsilon;
-  double gamma_epsilon;
-  double sum = 0.0;
-  double max = 0.0;
-  double priority = 0.0;
-
-  double Of(double gap, double orthogonality) { return Of(gap, orthogonality, epsilon); }
-  double Of(double gap, double orthogonality, double saturation) {
-    const double importance = Proximity(gap, saturation) * orthogonality;
-    sum += importance;
-    max = std::max(max, importance);
-    priority = std::max(priority, Proximity(gap, gamma_epsilon) * orthogonality);
-    return importance;
-  }
-};
-
-/// The bones to one limb point, component by component, so that all are treated at once.
-struct PathBones {
-  PathBones(const Context& context, const MeshPaths& all) : paths(all) {
-    for (std::size_t i = 0; i < paths.length; ++i) {
-      const Vec3& direction = context.posed.bone_direction[paths.bone[i]];
-      x[i] = direction.x;
-      y[i] = direction.y;
-      z[i] = direction.z;
-      length[i] = context.constants.bone_length[paths.bone[i]];
-    }
-  }
-  const MeshPaths& paths;
-  std::array<double, kMaxPathLength> x{};
-  std::array<double, kMaxPathLength> y{};
-  std::array<double, kMaxPathLength> z{};
-  std::array<double, kMaxPathLength> length{};
-};
-
-/// Relations to the triangles of one mesh, summed in world space.
-struct MeshSum {
-  Vec3 inside{0.0};
-  std::array<double, kMaxPathLength> x{};
-  std::array<double, kMaxPathLength> y{};
-  std::array<double, kMaxPathLength> z{};
-};
-
-/// Relates a point to all triangles of one mesh; `weight` are their importances before
-/// normalisation.
-void RelateToMesh(const Context& context, std::size_t first, std::size_t count, LimbPoint j,
-                  const MeshPaths& paths, Importance& importance,
-                  std::array<double, kTriangleCount>& weight, PointCoordinates& out,
-                  MeshRelations& relations) {
-  const Vec3& p = context.posed.point[Index(j)];
-  const double filled =
-      context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
-  const double softness = context.scale * context.settings.orthogonality_softness;
-  const double least_tau = 1e-9 * context.body.height;
-  const PathBones bones(context, paths);
-  MeshSum sum;
-  for (std::size_t t = first; t < first + count; ++t) {
-    const Triangle& triangle = context.posed.triangle[t];
-    const Vec3 barycentric = ClosestOnTriangle(triangle, p);
-    const Vec3 v = p - AtBarycentric(triangle, barycentric);
-    const double reach = glm::length(v);
-    const Vec3 direction = reach > 1e-12 ? v / reach : triangle.normal;
-    const double lambda =
-        importance.Of(reach - filled, Orthogonality(glm::dot(v, triangle.normal), reach, softness,
-                                                    context.settings.orthogonality_floor));
-    weight[t] = lambda;
-    relations.importance += lambda;
-    const SampleTriangle& corner = SampleTriangles()[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      out.sample[Index(corner[k])] += lambda * barycentric[static_cast<int>(k)];
-    }
-    const double inside = filled > 0.0 ? std::min(1.0, reach / filled) : 1.0;
-    sum.inside += (lambda * inside) * direction;
-
-    // Equations 4 and 5: the gap over tau, spread over the bones again.
-    const std::size_t parent = Index(ParentJoint(t));
-    const std::size_t used = bones.paths.used[parent];
-    const std::array<double, kMaxPathLength>& on_path = bones.paths.on_path[parent];
-    std::array<double, kMaxPathLength> factor;
-    double tau = 0.0;
-    for (std::size_t i = 0; i < used; ++i) {
-      factor[i] = on_path[i] *
-                  (kLeastCosine + std::abs(direction.x * bones.x[i] + direction.y * bones.y[i] +
-                                           direction.z * bones.z[i]));
-    }
-    for (std::size_t i = 0; i < used; ++i) tau += bones.length[i] * factor[i];
-    const double gap = std::max(0.0, reach - filled) / std::max(tau, least_tau);
-    const Vec3 step = (lambda * gap) * direction;
-    for (std::size_t i = 0; i < used; ++i) {
-      sum.x[i] += factor[i] * step.x;
-      sum.y[i] += factor[i] * step.y;
-      sum.z[i] += factor[i] * step.z;
-    }
-  }
-  relations.inside = sum.inside * context.posed.hips;
-  for (std::size_t i = 0; i < kMaxPathLength; ++i) {
-    relations.along[i] = Vec3{sum.x[i], sum.y[i], sum.z[i]} * context.posed.hips;
-  }
-}
-
 void Multiply(MeshRelations& relations, double share) {
   relations.importance *= share;
   relations.inside *= share;
@@ -140,7 +40,7 @@ void Multiply(MeshRelations& relations, double share) {
 }
 
 void RelateToCapsule(const Context& context, const PosedCapsule& capsule, HumanoidJoint parent,
-                     LimbPoint j, Importance& importance, CapsuleRelation& relation) {
+                     LimbPoint j, ImportanceTotal& importance, CapsuleRelation& relation) {
   const Vec3& p = context.posed.point[Index(j)];
   const double own =
       context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
@@ -152,10 +52,10 @@ void RelateToCapsule(const Context& context, const PosedCapsule& capsule, Humano
   NormalizeDistance(context, PathBetween(parent, j), direction, reach, capsule.radius + own,
                     relation.distance);
   // The displacement from a capsule is always along its normal.
-  relation.importance = importance.Of(reach - capsule.radius - own, 1.0);
+  relation.importance = importance.Add(reach - capsule.radius - own, 1.0);
 }
 
-GroundRelation RelateToGround(const Context& context, LimbPoint j, Importance& importance) {
+GroundRelation RelateToGround(const Context& context, LimbPoint j, ImportanceTotal& importance) {
   const double h_root = context.body.standing_root_height;
   const Vec3& ankle = context.posed.point[Index(j)];
   const Vec3& root = context.posed.pose.position_ws[0];
@@ -171,24 +71,32 @@ GroundRelation RelateToGround(const Context& context, LimbPoint j, Importance& i
   relation.offset = Vec2{sole.x - root.x, sole.z - root.z} / h_root;
   relation.gap = sole.y / h_root;
   relation.importance =
-      importance.Of(std::abs(sole.y), 1.0, context.scale * context.settings.ground_epsilon);
+      importance.Add(std::abs(sole.y), 1.0, context.scale * context.settings.ground_epsilon);
   return relation;
 }
 
 /// `triangle` are the triangles' shares, for the normals.
 void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
-                    std::array<double, kTriangleCount>& triangle) {
+                    std::array<Lanes, kTrianglePairCount>& triangle) {
   const NormalizeSettings& settings = context.settings;
   const Limb limb = LimbOf(j);
-  Importance importance{context.scale * settings.surface_epsilon,
-                        context.scale * settings.gamma_epsilon};
+  ImportanceTotal importance{context.scale * settings.surface_epsilon,
+                             context.scale * settings.gamma_epsilon};
+  const auto relate = [&](const MeshPaths& paths, std::size_t first, std::size_t end) {
+    const MeshQuery query{
+        .constants = context.constants,
+        .posed = context.posed,
+        .paths = paths,
+        .point = context.posed.point[Index(j)],
+        .thickness = settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0,
+        .softness = context.scale * settings.orthogonality_softness,
+        .floor = settings.orthogonality_floor,
+        .least_factor = 1e-9 * context.body.height};
+    return RelateToMesh(query, first, end, importance, triangle, out.sample);
+  };
   out.sample = {};
-  out.trunk = {};
-  out.head = {};
-  RelateToMesh(context, 0, kTrunkTriangleCount, j, PathsFromTrunk(j), importance, triangle, out,
-               out.trunk);
-  RelateToMesh(context, kTrunkTriangleCount, kTriangleCount - kTrunkTriangleCount, j,
-               PathsFromHead(j), importance, triangle, out, out.head);
+  out.trunk = relate(PathsFromTrunk(j), 0, kTrunkPairCount);
+  out.head = relate(PathsFromHead(j), kTrunkPairCount, kTrianglePairCount);
   out.mesh_importance_max = importance.max;
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const LimbSegment other = OtherSegment(limb, slot);
@@ -210,7 +118,7 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
 
   // Normalised linearly so that they sum to one (section 5.1).
   const double share = 1.0 / importance.sum;
-  for (double& weight : triangle) weight *= share;
+  for (Lanes& weight : triangle) weight *= Splat(share);
   for (double& weight : out.sample) weight *= share;
   Multiply(out.trunk, share);
   Multiply(out.head, share);
@@ -224,14 +132,18 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
 }
 
 void NormalizeNormal(const Context& context, Limb limb,
-                     const std::array<double, kTriangleCount>& importance, NormalCoordinates& out) {
+                     const std::array<Lanes, kTrianglePairCount>& importance,
+                     NormalCoordinates& out) {
   const BodySurface& surface = context.body.surface;
   const std::size_t side = IsLeft(limb) ? 0 : 1;
   const Vec3& normal_ms =
       IsArm(limb) ? surface.hand[side].palm_normal_ms : surface.foot[side].sole_normal_ms;
   const Vec3 normal = context.posed.pose.Rotation(JointsOf(limb).end) * normal_ms;
-  for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    out.triangle[t] = importance[t] * (normal * context.posed.tangent[t]);
+  const Lanes3 both = Splat(normal);
+  for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
+    const TangentPair& tangent = context.posed.tangent[t];
+    out.triangle[t] = importance[t] * Lanes3{Dot(both, context.posed.triangle[t].normal),
+                                             Dot(both, tangent.along), Dot(both, tangent.third)};
   }
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const PosedCapsule& capsule = context.posed.capsule[Index(OtherSegment(limb, slot))];
@@ -294,7 +206,7 @@ void Normalize(const Body& performer, const Pose& pose, const NormalizeSettings&
   out.root = pose.root_ws / performer.standing_root_height;
 
   const std::size_t points = settings.form.hand_points ? kLimbPointCount : kLimbJointCount;
-  std::array<double, kTriangleCount> triangle;
+  std::array<Lanes, kTrianglePairCount> triangle;
   for (std::size_t k = 0; k < points; ++k) {
     const auto j = static_cast<LimbPoint>(k);
     NormalizePoint(context, j, out.point[k], triangle);

@@ -29,13 +29,14 @@ double Thickness(const Body& body, LimbPoint point) {
   return limb < 2 ? body.surface.hand[limb].half_thickness : lower;
 }
 
-/// Whether a triangle looks up or down on the template, so that +Y says nothing about its plane.
-const std::array<bool, kTriangleCount>& LooksUpOrDown() {
-  static const std::array<bool, kTriangleCount> kAll = [] {
+/// Whether a pair of triangles looks up or down on the template, so that +Y says nothing about its
+/// plane.
+const std::array<bool, kTrianglePairCount>& LooksUpOrDown() {
+  static const std::array<bool, kTrianglePairCount> kAll = [] {
     const Body body = TemplateBody();
-    std::array<bool, kTriangleCount> all{};
-    for (std::size_t t = 0; t < kTriangleCount; ++t) {
-      const SampleTriangle& s = SampleTriangles()[t];
+    std::array<bool, kTrianglePairCount> all{};
+    for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
+      const SampleTriangle& s = SampleTriangles()[2 * t];
       const auto at = [&](std::size_t k) { return body.surface.sample_ms[Index(s[k])]; };
       all[t] = std::abs(Triangle::Of(at(0), at(1), at(2)).normal.y) > 0.8;
     }
@@ -44,14 +45,24 @@ const std::array<bool, kTriangleCount>& LooksUpOrDown() {
   return kAll;
 }
 
-Mat3 TangentFrame(bool vertical, const Vec3& normal, const Mat3& hips) {
+TangentPair TangentFrames(bool vertical, const Lanes3& normal, const Mat3& hips) {
   const Vec3& along_first = vertical ? hips[2] : hips[1];
   const Vec3& otherwise = vertical ? hips[1] : hips[2];
-  const Vec3 part = Perpendicular(along_first, normal);
-  const double length = glm::length(part);
-  const Vec3 along =
-      length > 1e-12 ? part / length : NormalizedOr(Perpendicular(otherwise, normal), otherwise);
-  return Mat3(normal, along, glm::cross(normal, along));
+  const Lanes3 first = Splat(along_first);
+  const Lanes3 part = first - Dot(first, normal) * normal;
+  const Lanes length = Sqrt(Dot(part, part));
+  const LaneMask is_long = length > Splat(1e-12);
+  TangentPair frame;
+  frame.along = (Splat(1.0) / Select(is_long, length, Splat(1.0))) * part;
+  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    if (is_long[lane]) continue;
+    const Vec3 along = NormalizedOr(Perpendicular(otherwise, normal.At(lane)), otherwise);
+    frame.along.x[lane] = along.x;
+    frame.along.y[lane] = along.y;
+    frame.along.z[lane] = along.z;
+  }
+  frame.third = Cross(normal, frame.along);
+  return frame;
 }
 
 }  // namespace
@@ -114,11 +125,14 @@ void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody&
     sample[i] = sum;
   }
   posed.hips = glm::mat3_cast(posed.pose.rotation_ws[0]);
-  const std::array<bool, kTriangleCount>& vertical = LooksUpOrDown();
-  for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    const SampleTriangle& s = SampleTriangles()[t];
-    posed.triangle[t] = Triangle::Of(sample[Index(s[0])], sample[Index(s[1])], sample[Index(s[2])]);
-    posed.tangent[t] = TangentFrame(vertical[t], posed.triangle[t].normal, posed.hips);
+  const std::array<bool, kTrianglePairCount>& vertical = LooksUpOrDown();
+  const std::array<SampleTriangle, kTriangleCount>& corners = SampleTriangles();
+  for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
+    const auto corner = [&](std::size_t k) {
+      return Pair(sample[Index(corners[2 * t][k])], sample[Index(corners[2 * t + 1][k])]);
+    };
+    posed.triangle[t] = TrianglePair::Of(corner(0), corner(1), corner(2));
+    posed.tangent[t] = TangentFrames(vertical[t], posed.triangle[t].normal, posed.hips);
   }
 }
 

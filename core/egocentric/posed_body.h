@@ -7,6 +7,7 @@
 #include "core/egocentric/kinematic_path.h"
 #include "core/egocentric/limb_point.h"
 #include "core/geometry/closest_point.h"
+#include "core/geometry/triangle_pair.h"
 #include "core/skeleton/pose.h"
 
 namespace ego {
@@ -34,16 +35,25 @@ struct PosedCapsule {
   Vec3 At(double t) const { return start + t * (end - start); }
 };
 
+/// The triangles 2k and 2k + 1, mirror images of each other, are treated side by side.
+inline constexpr std::size_t kTrianglePairCount = kTriangleCount / 2;
+inline constexpr std::size_t kTrunkPairCount = kTrunkTriangleCount / 2;
+
+/// Tangent frames of two triangles: normal (see TrianglePair), along, third. `along` is the part of
+/// the hips' +Y (of +Z for faces that look up or down in the template) at right angles to the
+/// normal, so that the frames of mirrored triangles are mirror images.
+struct TangentPair {
+  Lanes3 along;
+  Lanes3 third;
+};
+
 /// A posed body with everything that the egocentric coordinates refer to, world space.
 struct PosedBody {
   ModelPose pose;
   Mat3 hips{1.0};  // rotation of the root, the frame of displacements from trunk and head
   std::array<Vec3, kSampleCount> sample;
-  std::array<Triangle, kTriangleCount> triangle;
-  /// Tangent frames: columns normal, along, third. `along` is the part of the hips' +Y (of +Z for
-  /// faces that look up or down in the template) at right angles to the normal, so that the frames
-  /// of mirrored triangles are mirror images.
-  std::array<Mat3, kTriangleCount> tangent;
+  std::array<TrianglePair, kTrianglePairCount> triangle;
+  std::array<TangentPair, kTrianglePairCount> tangent;
   std::array<PosedCapsule, kSegmentCount> capsule;
   /// The hands as capsules from wrist to fingertip (palm and fingertip of one hand refer to the
   /// other's).

@@ -13,12 +13,6 @@ Triangle Triangle::Of(const Vec3& a, const Vec3& b, const Vec3& c) {
   triangle.c = c;
   triangle.ab = b - a;
   triangle.ac = c - a;
-  triangle.center = (a + b + c) / 3.0;
-  const auto square_to = [&](const Vec3& corner) {
-    const Vec3 d = corner - triangle.center;
-    return glm::dot(d, d);
-  };
-  triangle.reach = std::sqrt(std::max({square_to(a), square_to(b), square_to(c)}));
   const Vec3 normal = glm::cross(triangle.ab, triangle.ac);
   const double length = glm::length(normal);
   triangle.area = 0.5 * length;

@@ -14,8 +14,6 @@ struct Triangle {
   double area = 0.0;
   Vec3 ab{0.0};
   Vec3 ac{0.0};
-  Vec3 center{0.0};    // centroid
-  double reach = 0.0;  // from there to the farthest corner
 
   static Triangle Of(const Vec3& a, const Vec3& b, const Vec3& c);
 };

@@ -13,73 +13,69 @@ namespace {
 /// than 1.6e-5 of it and are left out: the distance changes by micrometres.
 constexpr double kNegligible = 16.0;
 
-double SquareDistance(const Triangle& triangle, const Vec3& p) {
-  const Vec3 away = p - AtBarycentric(triangle, ClosestOnTriangle(triangle, p));
-  return glm::dot(away, away);
-}
-
 /// Square of a distance from a point beyond which no triangle counts.
-double SquareHorizon(std::span<const Triangle> mesh, const Vec3& p, double e2) {
-  double least = std::numeric_limits<double>::max();
-  const Triangle* nearest = nullptr;
-  for (const Triangle& triangle : mesh) {
-    const Vec3 d = p - triangle.center;
-    const double square = glm::dot(d, d);
-    if (square < least) {
-      least = square;
-      nearest = &triangle;
-    }
+double SquareHorizon(std::span<const TrianglePair> mesh, const Lanes3& p, double e2) {
+  Lanes least = Splat(std::numeric_limits<double>::max());
+  Lanes nearest{};
+  for (std::size_t k = 0; k < mesh.size(); ++k) {
+    const Lanes3 d = p - mesh[k].center;
+    const Lanes square = Dot(d, d);
+    nearest = Select(square < least, Splat(static_cast<double>(k)), nearest);
+    least = Min(least, square);
   }
-  return nearest == nullptr ? 0.0 : kNegligible * (SquareDistance(*nearest, p) + e2);
+  const std::size_t lane = least[1] < least[0] ? 1 : 0;
+  const Lanes3 away = ClosestOnPair(mesh[static_cast<std::size_t>(nearest[lane])], p).away;
+  return kNegligible * (Dot(away, away)[lane] + e2);
 }
 
 }  // namespace
 
-SignedDistance SmoothMeshDistance(std::span<const Triangle> mesh, const Vec3& p, double epsilon,
+SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
                                   double width) {
+  if (mesh.empty()) return {width, Vec3{0.0}};
   const double e2 = epsilon * epsilon;
-  double weight_sum = 0.0;
-  double plane_sum = 0.0;
-  double square_sum = 0.0;
-  Vec3 normal_sum{0.0};
-  Vec3 away_sum{0.0};
-  const double horizon = std::sqrt(SquareHorizon(mesh, p, e2));
-  for (const Triangle& triangle : mesh) {
-    const Vec3 from_center = p - triangle.center;
-    const double bound = horizon + triangle.reach;
-    if (glm::dot(from_center, from_center) > bound * bound) continue;
-    const double height = glm::dot(triangle.normal, from_center);
-    if (std::abs(height) > horizon) continue;
-    const Vec3 away = p - AtBarycentric(triangle, ClosestOnTriangle(triangle, p));
-    const double square = glm::dot(away, away);
-    const double ratio = e2 / (square + e2);
-    const double ratio2 = ratio * ratio;
-    const double weight = triangle.area * ratio2 * ratio2;
-    weight_sum += weight;
-    plane_sum += weight * height;
-    square_sum += weight * square;
-    normal_sum += weight * triangle.normal;
-    away_sum += weight * away;
+  const Lanes3 point = Splat(p);
+  const Lanes horizon = Splat(std::sqrt(SquareHorizon(mesh, point, e2)));
+  Lanes weights{};
+  Lanes planes{};
+  Lanes squares{};
+  Lanes3 normals;
+  Lanes3 aways;
+  for (const TrianglePair& triangle : mesh) {
+    const Lanes3 from_center = point - triangle.center;
+    const Lanes bound = horizon + triangle.reach;
+    const Lanes height = Dot(triangle.normal, from_center);
+    const LaneMask counts =
+        (Dot(from_center, from_center) <= bound * bound) & (Abs(height) <= horizon);
+    if (!Any(counts)) continue;
+    const Lanes3 away = ClosestOnPair(triangle, point).away;
+    const Lanes square = Dot(away, away);
+    const Lanes ratio = Splat(e2) / (square + Splat(e2));
+    const Lanes ratio2 = ratio * ratio;
+    const Lanes weight = Select(counts, triangle.area * (ratio2 * ratio2), Lanes{});
+    weights += weight;
+    planes += weight * height;
+    squares += weight * square;
+    normals += weight * triangle.normal;
+    aways += weight * away;
   }
+  const double weight_sum = Sum(weights);
   if (!(weight_sum > 0.0)) return {width, Vec3{0.0}};
-  const double plane = plane_sum / weight_sum;
-  const double away = std::sqrt(square_sum / weight_sum);
+  const double plane = Sum(planes) / weight_sum;
+  const double away = std::sqrt(Sum(squares) / weight_sum);
   const double outside =
       1.0 - (1.0 - Smoothstep(plane / (2.0 * epsilon))) * (1.0 - Smoothstep(away / width - 1.0));
-  const Vec3 away_gradient =
-      away > 1e-12 ? away_sum / (weight_sum * away) : normal_sum / weight_sum;
-  return {plane + outside * (away - plane),
-          glm::mix(normal_sum / weight_sum, away_gradient, outside)};
+  const Vec3 normal = Sum(normals) / weight_sum;
+  const Vec3 away_gradient = away > 1e-12 ? Sum(aways) / (weight_sum * away) : normal;
+  return {plane + outside * (away - plane), glm::mix(normal, away_gradient, outside)};
 }
 
-Box Box::Of(std::span<const Triangle> mesh) {
-  if (mesh.empty()) return {};
-  Box box{mesh[0].a, mesh[0].a};
-  for (const Triangle& triangle : mesh) {
-    for (const Vec3& p : {triangle.a, triangle.b, triangle.c}) {
-      box.low = glm::min(box.low, p);
-      box.high = glm::max(box.high, p);
-    }
+Box Box::Of(std::span<const Vec3> points) {
+  if (points.empty()) return {};
+  Box box{points[0], points[0]};
+  for (const Vec3& p : points) {
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
   }
   return box;
 }

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/geometry/closest_point.h"
+#include "core/geometry/triangle_pair.h"
 
 namespace ego {
 
@@ -20,14 +20,14 @@ struct SignedDistance {
 /// distances, where planes seen from the side would lie about the sign. `epsilon` (metres) is the
 /// width of the smoothing; beyond `width` (metres, about half the mesh's own) only the unsigned
 /// distance counts. Infinitely differentiable but where closest points change their feature.
-SignedDistance SmoothMeshDistance(std::span<const Triangle> mesh, const Vec3& p, double epsilon,
+SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
                                   double width);
 
-/// Axis-aligned box of a mesh, to leave out what is far.
+/// Axis-aligned box of a mesh's vertices, to leave out what is far.
 struct Box {
   Vec3 low{0.0};
   Vec3 high{0.0};
-  static Box Of(std::span<const Triangle> mesh);
+  static Box Of(std::span<const Vec3> points);
   /// Never more than the distance to the mesh.
   double Distance(const Vec3& p) const;
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +15,7 @@
 #include "core/geometry/rotation.h"
 #include "core/geometry/small_solve.h"
 #include "core/geometry/smooth.h"
+#include "core/geometry/triangle_pair.h"
 
 namespace ego {
 namespace {
@@ -47,6 +51,39 @@ TEST(ClosestOnTriangle, IsNoFartherThanAnySampledPoint) {
     EXPECT_LE(found, best + 1e-12);
     EXPECT_NEAR(found, best, 0.06);
   }
+}
+
+TEST(TrianglePair, AgreesWithEachTriangleAlone) {
+  Random random;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::array<Vec3, 3> one = {random.Vector(), random.Vector(), random.Vector()};
+    const std::array<Vec3, 3> two = {random.Vector(), random.Vector(), random.Vector()};
+    const TrianglePair pair =
+        TrianglePair::Of(Pair(one[0], two[0]), Pair(one[1], two[1]), Pair(one[2], two[2]));
+    const Vec3 p = 3.0 * random.Vector();
+    const ClosestPair closest = ClosestOnPair(pair, Splat(p));
+    for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+      const auto& corner = lane == 0 ? one : two;
+      const Triangle triangle = Triangle::Of(corner[0], corner[1], corner[2]);
+      const Vec3 weight = ClosestOnTriangle(triangle, p);
+      const Vec3 away = p - AtBarycentric(triangle, weight);
+      EXPECT_LT(glm::distance(closest.away.At(lane), away), 1e-11);
+      EXPECT_NEAR(closest.b[lane], weight.y, 1e-10);
+      EXPECT_NEAR(closest.c[lane], weight.z, 1e-10);
+      EXPECT_LT(glm::distance(pair.normal.At(lane), triangle.normal), 1e-12);
+      EXPECT_NEAR(pair.area[lane], triangle.area, 1e-15);
+    }
+  }
+}
+
+TEST(TrianglePair, HasAnAnswerWithoutArea) {
+  const Lanes3 point = Splat(Vec3{1.0});
+  const TrianglePair none = TrianglePair::Of(point, point, point);
+  EXPECT_EQ(ClosestOnPair(none, Splat(Vec3{5.0})).away.At(0), Vec3(4.0));
+  const TrianglePair line =
+      TrianglePair::Of(Splat(Vec3{0, 0, 0}), Splat(Vec3{1, 0, 0}), Splat(Vec3{2, 0, 0}));
+  EXPECT_EQ(ClosestOnPair(line, Splat(Vec3{1.5, 1, 0})).away.At(1), Vec3(0, 1, 0));
+  EXPECT_EQ(line.normal.At(0), Vec3(0.0));
 }
 
 TEST(ClosestOnTriangle, HasAnAnswerWithoutArea) {
@@ -137,13 +174,19 @@ TEST(NormalEquations, SolveWhatTheyAreGiven) {
 TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
   const Body body = TemplateBody();
   std::vector<Triangle> trunk;
-  for (std::size_t t = 0; t < kTrunkTriangleCount; ++t) {
-    const SampleTriangle& s = SampleTriangles()[t];
-    trunk.push_back(Triangle::Of(body.surface.sample_ms[Index(s[0])],
-                                 body.surface.sample_ms[Index(s[1])],
-                                 body.surface.sample_ms[Index(s[2])]));
+  std::vector<TrianglePair> pairs;
+  for (std::size_t t = 0; t < kTrunkTriangleCount; t += 2) {
+    const auto corner = [&](std::size_t triangle, std::size_t k) -> const Vec3& {
+      return body.surface.sample_ms[Index(SampleTriangles()[triangle][k])];
+    };
+    for (const std::size_t one : {t, t + 1}) {
+      trunk.push_back(Triangle::Of(corner(one, 0), corner(one, 1), corner(one, 2)));
+    }
+    pairs.push_back(TrianglePair::Of(Pair(corner(t, 0), corner(t + 1, 0)),
+                                     Pair(corner(t, 1), corner(t + 1, 1)),
+                                     Pair(corner(t, 2), corner(t + 1, 2))));
   }
-  const Box box = Box::Of(trunk);
+  const Box box = Box::Of(std::span<const Vec3>(body.surface.sample_ms).first(kTrunkSampleCount));
   for (const Triangle& t : trunk) {
     const Vec3 middle = (t.a + t.b + t.c) / 3.0;
     for (const double offset : {-0.02, 0.02, 0.05}) {
@@ -153,7 +196,7 @@ TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
         nearest =
             std::min(nearest, glm::distance(p, AtBarycentric(other, ClosestOnTriangle(other, p))));
       }
-      const SignedDistance d = SmoothMeshDistance(trunk, p, 0.009, 0.16);
+      const SignedDistance d = SmoothMeshDistance(pairs, p, 0.009, 0.16);
       EXPECT_EQ(d.distance > 0.0, offset > 0.0);
       EXPECT_NEAR(std::abs(d.distance), nearest, 0.008);
       EXPECT_GT(glm::dot(d.gradient, t.normal), 0.6);
