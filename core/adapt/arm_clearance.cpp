@@ -24,12 +24,13 @@ constexpr double kHandStep = 0.30;
 
 /// A wish of one sample: to move by `value` metres along `normal`.
 struct Row {
-  std::size_t sample = 0;
-  Vec3 normal{0.0};
-  double value = 0.0;
-  double weight = 0.0;
+  std::size_t sample;
+  Vec3 normal;
+  double value;
+  double weight;
 };
 struct Rows {
+  // Filled up to `count`; the rest is never touched.
   std::array<Row, 2 * kClearanceSampleCount * kObstacleCount> row;
   std::size_t count = 0;
   void Add(const Row& wish) { row[count++] = wish; }
@@ -63,17 +64,18 @@ bool MeasureMesh(const BodyObstacles& body, std::size_t obstacle, const ArmSampl
 }
 
 /// The same for a capsule. False where it is farther than `horizon`.
-bool MeasureCapsule(const AdaptState& state, const PosedCapsule& capsule, const ArmSample& sample,
-                    const Vec3& side_ls, double horizon, SignedDistance& out) {
-  const Vec3 from_axis =
-      sample.center - capsule.At(ClosestOnSegment(sample.center, capsule.start, capsule.end));
+bool MeasureCapsule(const AdaptState& state, const CapsuleObstacle& obstacle,
+                    const ArmSample& sample, const Vec3& side_ls, double horizon,
+                    SignedDistance& out) {
   // Along any direction the distance is less than the length, so `horizon` rejects safely.
-  const double filled = capsule.radius + sample.radius;
+  const double filled = obstacle.capsule->radius + sample.radius;
   const double nudge = 0.015 * state.scale;
   const double far = filled + horizon + 2.0 * nudge;
+  if (obstacle.IsFartherThan(far, sample.center)) return false;
+  const Vec3 from_axis = obstacle.FromAxis(sample.center);
   if (glm::dot(from_axis, from_axis) > far * far) return false;
   // The performer's side of the obstacle decides where the avatar's lies deep inside.
-  const Vec3 side = capsule.frame * side_ls;
+  const Vec3 side = obstacle.capsule->frame * side_ls;
   out.gradient = NormalizedOr(from_axis + nudge * side, side);
   out.distance = glm::dot(out.gradient, from_axis) - filled;
   return true;
@@ -89,6 +91,7 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
   const double height = state.avatar.height;
   const double margin = state.scale * state.settings.clearance_margin;
   const double fade = state.scale * state.settings.contact_fade;
+  const CapsuleObstacles capsules = CapsuleObstaclesOf(state.posed, arm);
   const std::size_t count =
       state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
   for (std::size_t s = 0; s < count; ++s) {
@@ -106,10 +109,10 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
       // Far from an obstacle nothing can be asked: most samples of most postures.
       const double most = performer.known ? std::min(clearance, margin) : margin;
       SignedDistance now;
-      if (o < 2) {
+      if (o < kFirstCapsuleObstacle) {
         if (touching == 0.0 && body.LowerBound(o, sample) > most + 0.01 * height) continue;
         if (!MeasureMesh(body, o, sample, touching > 0.0, memory.entry[s][o], now)) continue;
-      } else if (!MeasureCapsule(state, ObstacleCapsule(state.posed, arm, o), sample,
+      } else if (!MeasureCapsule(state, capsules[o - kFirstCapsuleObstacle], sample,
                                  performer.direction_ls, touching > 0.0 ? 10.0 * height : most,
                                  now)) {
         continue;

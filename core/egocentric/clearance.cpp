@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/egocentric/clearance.h"
 
+#include <cmath>
+
 #include "core/geometry/rotation.h"
 #include "core/geometry/smooth.h"
 
@@ -47,34 +49,57 @@ bool BodyObstacles::Distance(std::size_t obstacle, const ArmSample& sample,
   return true;
 }
 
-const PosedCapsule& ObstacleCapsule(const PosedBody& posed, Limb arm, std::size_t obstacle) {
-  return obstacle == kObstacleCount - 1 ? posed.hand[Index(Mirror(arm))]
-                                        : posed.capsule[Index(OtherSegment(arm, obstacle - 2))];
+CapsuleObstacle::CapsuleObstacle(const PosedCapsule& posed)
+    : capsule(&posed),
+      axis(posed.end - posed.start),
+      per_square(0.0),
+      middle(0.5 * (posed.start + posed.end)),
+      half_length(0.0) {
+  const double square = glm::dot(axis, axis);
+  if (!(square > 0.0)) return;
+  per_square = 1.0 / square;
+  half_length = 0.5 * std::sqrt(square);
+}
+
+CapsuleObstacles CapsuleObstaclesOf(const PosedBody& posed, Limb arm) {
+  const auto other = [&](std::size_t slot) {
+    return CapsuleObstacle(posed.capsule[Index(OtherSegment(arm, slot))]);
+  };
+  return {other(0),
+          other(1),
+          other(2),
+          other(3),
+          other(4),
+          other(5),
+          CapsuleObstacle(posed.hand[Index(Mirror(arm))])};
 }
 
 void MeasureClearance(const Body& performer, const PosedBody& posed, Limb arm,
                       EgocentricPose::ArmClearance& out) {
   const BodyObstacles obstacles(performer, posed);
+  const CapsuleObstacles capsules = CapsuleObstaclesOf(posed, arm);
+  const double per_height = 1.0 / performer.height;
   for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
     const ArmSample sample = SampleOf(performer, posed, arm, s);
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
       Clearance& clearance = out[s][o];
       clearance = {};
-      if (o < 2) {
+      if (o < kFirstCapsuleObstacle) {
         SignedDistance measured;
         clearance.known = obstacles.Distance(o, sample, measured);
-        clearance.distance = measured.distance / performer.height;
+        clearance.distance = measured.distance * per_height;
         continue;
       }
-      const PosedCapsule& capsule = ObstacleCapsule(posed, arm, o);
-      const Vec3 from_axis =
-          sample.center - capsule.At(ClosestOnSegment(sample.center, capsule.start, capsule.end));
+      const CapsuleObstacle& obstacle = capsules[o - kFirstCapsuleObstacle];
+      const PosedCapsule& capsule = *obstacle.capsule;
+      const Vec3 from_axis = obstacle.FromAxis(sample.center);
       const double reach = glm::length(from_axis);
+      const double filled = capsule.radius + sample.radius;
       clearance.known = true;
-      clearance.trust = Smoothstep(reach / (capsule.radius + sample.radius));
-      clearance.distance = (reach - capsule.radius - sample.radius) / performer.height;
+      clearance.trust = reach < filled ? Smoothstep(reach / filled) : 1.0;
+      clearance.distance = (reach - filled) * per_height;
       clearance.direction_ls =
-          glm::transpose(capsule.frame) * NormalizedOr(from_axis, capsule.frame[1]);
+          (reach > 1e-12 ? from_axis / reach : capsule.frame[1]) * capsule.frame;
     }
   }
 }

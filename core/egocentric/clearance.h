@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "core/body/body.h"
 #include "core/egocentric/egocentric_pose.h"
 #include "core/egocentric/posed_body.h"
@@ -33,8 +37,32 @@ struct BodyObstacles {
   double height_;
 };
 
-/// The capsule of obstacles 2 to 8: the other limbs' segments by slot, then the other hand.
-const PosedCapsule& ObstacleCapsule(const PosedBody& posed, Limb arm, std::size_t obstacle);
+/// A capsule in place as an obstacle; refers to it.
+struct CapsuleObstacle {
+  explicit CapsuleObstacle(const PosedCapsule& posed);
+  /// From the closest point of the axis to `p`.
+  Vec3 FromAxis(const Vec3& p) const {
+    const Vec3 offset = p - capsule->start;
+    return offset - std::clamp(glm::dot(offset, axis) * per_square, 0.0, 1.0) * axis;
+  }
+  /// Whether `p` is farther from the axis than `distance`, as far as hardly any cost can tell.
+  bool IsFartherThan(double distance, const Vec3& p) const {
+    const Vec3 offset = p - middle;
+    const double bound = distance + half_length;
+    return glm::dot(offset, offset) > bound * bound;
+  }
+
+  const PosedCapsule* capsule;
+  Vec3 axis;          // start to end
+  double per_square;  // one over the square of its length, 0 where it has none
+  Vec3 middle;
+  double half_length;
+};
+
+/// Obstacles 2 to 8 of an arm: the other limbs' segments by slot, then the other hand.
+inline constexpr std::size_t kFirstCapsuleObstacle = 2;
+using CapsuleObstacles = std::array<CapsuleObstacle, kObstacleCount - kFirstCapsuleObstacle>;
+CapsuleObstacles CapsuleObstaclesOf(const PosedBody& posed, Limb arm);
 
 /// The performer's own clearance of all samples of an arm.
 void MeasureClearance(const Body& performer, const PosedBody& posed, Limb arm,

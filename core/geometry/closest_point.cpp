@@ -64,13 +64,6 @@ Vec3 ClosestOnTriangle(const Triangle& triangle, const Vec3& p) {
   return {va / sum, vb / sum, vc / sum};
 }
 
-double ClosestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double length2 = glm::dot(d, d);
-  if (!(length2 > 0.0)) return 0.0;
-  return std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0);
-}
-
 SegmentPair ClosestOnSegments(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1) {
   const Vec3 u = a1 - a0;
   const Vec3 v = b1 - b0;

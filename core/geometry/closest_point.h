@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "core/base/math.h"
 
 namespace ego {
@@ -28,7 +30,12 @@ inline Vec3 AtBarycentric(const Triangle& triangle, const Vec3& weight) {
 
 /// Parameter in [0, 1] of the point of the segment a b closest to `p`; 0 for a segment without
 /// length. Continuous.
-double ClosestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b);
+inline double ClosestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double length2 = glm::dot(d, d);
+  if (!(length2 > 0.0)) return 0.0;
+  return std::clamp(glm::dot(p - a, d) / length2, 0.0, 1.0);
+}
 
 /// Parameters of a closest pair of two segments.
 struct SegmentPair {
