@@ -25,9 +25,10 @@ struct MeshQuery {
 
 /// Relates the point to the triangle pairs from `first` up to `end`. Adds the importances, before
 /// normalisation, to `total`, those of the triangles to `triangle`, and their share of every sample
-/// to `sample`.
+/// to `sample`. The same bits for any `lanes`.
 MeshRelations RelateToMesh(const MeshQuery& query, std::size_t first, std::size_t end,
                            ImportanceTotal& total, std::array<Lanes, kTrianglePairCount>& triangle,
-                           std::array<double, kSampleCount>& sample);
+                           std::array<double, kSampleCount>& sample,
+                           LaneWidth lanes = FastestLanes());
 
 }  // namespace ego

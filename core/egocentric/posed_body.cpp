@@ -50,11 +50,11 @@ TangentPair TangentFrames(bool vertical, const Lanes3& normal, const Mat3& hips)
   const Vec3& otherwise = vertical ? hips[1] : hips[2];
   const Lanes3 first = Splat(along_first);
   const Lanes3 part = first - Dot(first, normal) * normal;
-  const Lanes length = Sqrt(Dot(part, part));
-  const LaneMask is_long = length > Splat(1e-12);
+  const Lanes length = Sqrt<Lanes>(Dot(part, part));
+  const LaneMask<Lanes> is_long = length > Splat(1e-12);
   TangentPair frame;
-  frame.along = (Splat(1.0) / Select(is_long, length, Splat(1.0))) * part;
-  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+  frame.along = (Splat(1.0) / Select<Lanes>(is_long, length, Splat(1.0))) * part;
+  for (std::size_t lane = 0; lane < kLaneCount<Lanes>; ++lane) {
     if (is_long[lane]) continue;
     const Vec3 along = NormalizedOr(Perpendicular(otherwise, normal.At(lane)), otherwise);
     frame.along.x[lane] = along.x;
@@ -131,7 +131,7 @@ void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody&
     const auto corner = [&](std::size_t k) {
       return Pair(sample[Index(corners[2 * t][k])], sample[Index(corners[2 * t + 1][k])]);
     };
-    posed.triangle[t] = TrianglePair::Of(corner(0), corner(1), corner(2));
+    posed.triangle[t] = MakeTrianglePair(corner(0), corner(1), corner(2));
     posed.tangent[t] = TangentFrames(vertical[t], posed.triangle[t].normal, posed.hips);
   }
 }

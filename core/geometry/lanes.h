@@ -3,63 +3,161 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/base/math.h"
 
+// Code over lanes of either width is written once, as templates that are always inlined into a
+// function of the processor it is for.
+#define EGO_LANES_INLINE [[gnu::always_inline]] inline
+#if defined(__x86_64__)
+#define EGO_WIDE_LANES_TARGET __attribute__((target("avx2")))
+#else
+#define EGO_WIDE_LANES_TARGET
+#endif
+
 namespace ego {
 
-/// Two doubles that are computed side by side, each exactly as it would be alone: the width that
-/// every 64-bit processor has, so that results do not depend on the machine.
+/// Doubles that are computed side by side, each exactly as it would be alone: two, which every
+/// 64-bit processor has, or four, which most have. Sums over lanes are taken so that both widths
+/// give the same bits (see `Sum`).
 using Lanes = double __attribute__((vector_size(16)));
-inline constexpr std::size_t kLaneCount = 2;
+using WideLanes = double __attribute__((vector_size(32)));
+template <class V>
+inline constexpr std::size_t kLaneCount = sizeof(V) / sizeof(double);
 /// What comparing lanes gives: all bits of a lane set where it holds.
-using LaneMask = decltype(Lanes{} < Lanes{});
+template <class V>
+using LaneMask = decltype(V{} < V{});
 
-inline Lanes Splat(double x) { return Lanes{x, x}; }
-inline double Sum(Lanes x) { return x[0] + x[1]; }
-inline double Largest(Lanes x) { return x[0] < x[1] ? x[1] : x[0]; }
-inline bool Any(LaneMask mask) { return (mask[0] | mask[1]) != 0; }
+enum class LaneWidth : std::uint8_t { kTwo, kFour };
+/// The width that this processor is fastest with.
+LaneWidth FastestLanes();
+
+template <class V = Lanes>
+EGO_LANES_INLINE V Splat(double x) {
+  V all;
+  for (std::size_t k = 0; k < kLaneCount<V>; ++k) all[k] = x;
+  return all;
+}
+template <class V>
+EGO_LANES_INLINE bool Any(const LaneMask<V>& mask) {
+  auto any = mask[0];
+  for (std::size_t k = 1; k < kLaneCount<V>; ++k) any |= mask[k];
+  return any != 0;
+}
 
 /// `a` in the lanes of `mask`, `b` in the others; both are computed.
-inline Lanes Select(LaneMask mask, Lanes a, Lanes b) { return mask ? a : b; }
-inline Lanes Min(Lanes a, Lanes b) { return Select(b < a, b, a); }
-inline Lanes Max(Lanes a, Lanes b) { return Select(a < b, b, a); }
-inline Lanes Abs(Lanes x) { return Max(x, -x); }
-inline Lanes Sqrt(Lanes x) { return Lanes{std::sqrt(x[0]), std::sqrt(x[1])}; }
+template <class V>
+EGO_LANES_INLINE V Select(const LaneMask<V>& mask, const V& a, const V& b) {
+  return mask ? a : b;
+}
+template <class V>
+EGO_LANES_INLINE V Min(const V& a, const V& b) {
+  return Select<V>(b < a, b, a);
+}
+template <class V>
+EGO_LANES_INLINE V Max(const V& a, const V& b) {
+  return Select<V>(a < b, b, a);
+}
+template <class V>
+EGO_LANES_INLINE V Abs(const V& x) {
+  return Max<V>(x, -x);
+}
+template <class V>
+EGO_LANES_INLINE V Sqrt(const V& x) {
+  V root;
+  for (std::size_t k = 0; k < kLaneCount<V>; ++k) root[k] = std::sqrt(x[k]);
+  return root;
+}
 
-/// Two vectors side by side.
-struct Lanes3 {
-  Lanes x{};
-  Lanes y{};
-  Lanes z{};
+/// As they lie in an array of pairs.
+template <class V>
+EGO_LANES_INLINE void Store(const V& all, Lanes* first) {
+  __builtin_memcpy(first, &all, sizeof(V));
+}
+/// The first pair, or both.
+template <class V>
+EGO_LANES_INLINE V Join(const Lanes& first, const Lanes& second) {
+  if constexpr (kLaneCount<V> == 2) {
+    return first;
+  } else {
+    return __builtin_shufflevector(first, second, 0, 1, 2, 3);
+  }
+}
+
+/// Vectors side by side.
+template <class V>
+struct LaneVectors {
+  V x{};
+  V y{};
+  V z{};
 
   Vec3 At(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
-  Lanes3& operator+=(const Lanes3& other) {
-    x += other.x;
-    y += other.y;
-    z += other.z;
-    return *this;
-  }
 };
+using Lanes3 = LaneVectors<Lanes>;
 
-inline Lanes3 Splat(const Vec3& v) { return {Splat(v.x), Splat(v.y), Splat(v.z)}; }
+template <class V = Lanes>
+EGO_LANES_INLINE LaneVectors<V> Splat(const Vec3& v) {
+  return {Splat<V>(v.x), Splat<V>(v.y), Splat<V>(v.z)};
+}
 inline Lanes3 Pair(const Vec3& a, const Vec3& b) {
   return {Lanes{a.x, b.x}, Lanes{a.y, b.y}, Lanes{a.z, b.z}};
 }
-inline Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> operator+(const LaneVectors<V>& a, const LaneVectors<V>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-inline Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> operator-(const LaneVectors<V>& a, const LaneVectors<V>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-inline Lanes3 operator*(Lanes s, const Lanes3& v) { return {s * v.x, s * v.y, s * v.z}; }
-inline Lanes Dot(const Lanes3& a, const Lanes3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Lanes3 Cross(const Lanes3& a, const Lanes3& b) {
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> operator*(const V& s, const LaneVectors<V>& v) {
+  return {s * v.x, s * v.y, s * v.z};
+}
+template <class V>
+EGO_LANES_INLINE void operator+=(LaneVectors<V>& sum, const LaneVectors<V>& v) {
+  sum.x += v.x;
+  sum.y += v.y;
+  sum.z += v.z;
+}
+template <class V>
+EGO_LANES_INLINE V Dot(const LaneVectors<V>& a, const LaneVectors<V>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> Cross(const LaneVectors<V>& a, const LaneVectors<V>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline Lanes3 Select(LaneMask mask, const Lanes3& a, const Lanes3& b) {
-  return {Select(mask, a.x, b.x), Select(mask, a.y, b.y), Select(mask, a.z, b.z)};
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> Select(const LaneMask<V>& mask, const LaneVectors<V>& a,
+                                       const LaneVectors<V>& b) {
+  return {Select<V>(mask, a.x, b.x), Select<V>(mask, a.y, b.y), Select<V>(mask, a.z, b.z)};
 }
-inline Vec3 Sum(const Lanes3& v) { return {Sum(v.x), Sum(v.y), Sum(v.z)}; }
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> Join(const Lanes3& first, const Lanes3& second) {
+  return {Join<V>(first.x, second.x), Join<V>(first.y, second.y), Join<V>(first.z, second.z)};
+}
+
+/// Sum over the lanes. Over an array of pairs two lanes wide, the even pairs are summed apart from
+/// the odd ones, so that four lanes give the same bits.
+template <class V>
+EGO_LANES_INLINE double Sum(const V& x) {
+  if constexpr (kLaneCount<V> == 2) {
+    return x[0] + x[1];
+  } else {
+    return (x[0] + x[1]) + (x[2] + x[3]);
+  }
+}
+template <class V>
+EGO_LANES_INLINE Vec3 Sum(const LaneVectors<V>& v) {
+  return {Sum(v.x), Sum(v.y), Sum(v.z)};
+}
+template <class V>
+EGO_LANES_INLINE double Largest(const V& x) {
+  double most = x[0];
+  for (std::size_t k = 1; k < kLaneCount<V>; ++k) most = most < x[k] ? x[k] : most;
+  return most;
+}
 
 }  // namespace ego

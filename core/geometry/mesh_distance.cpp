@@ -20,53 +20,88 @@ double SquareHorizon(std::span<const TrianglePair> mesh, const Lanes3& p, double
   for (std::size_t k = 0; k < mesh.size(); ++k) {
     const Lanes3 d = p - mesh[k].center;
     const Lanes square = Dot(d, d);
-    nearest = Select(square < least, Splat(static_cast<double>(k)), nearest);
-    least = Min(least, square);
+    nearest = Select<Lanes>(square < least, Splat(static_cast<double>(k)), nearest);
+    least = Min<Lanes>(least, square);
   }
   const std::size_t lane = least[1] < least[0] ? 1 : 0;
-  const Lanes3 away = ClosestOnPair(mesh[static_cast<std::size_t>(nearest[lane])], p).away;
+  const Lanes3 away = ClosestOnTriangles(mesh[static_cast<std::size_t>(nearest[lane])], p).away;
   return kNegligible * (Dot(away, away)[lane] + e2);
 }
 
-}  // namespace
+/// Weighted sums over triangles.
+struct Sums {
+  double weight = 0.0;
+  double plane = 0.0;
+  double square = 0.0;
+  Vec3 normal{0.0};
+  Vec3 away{0.0};
+  friend Sums operator+(const Sums& a, const Sums& b) {
+    return {a.weight + b.weight, a.plane + b.plane, a.square + b.square, a.normal + b.normal,
+            a.away + b.away};
+  }
+};
 
-SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
-                                  double width) {
-  if (mesh.empty()) return {width, Vec3{0.0}};
-  const double e2 = epsilon * epsilon;
-  const Lanes3 point = Splat(p);
-  const Lanes horizon = Splat(std::sqrt(SquareHorizon(mesh, point, e2)));
-  Lanes weights{};
-  Lanes planes{};
-  Lanes squares{};
-  Lanes3 normals;
-  Lanes3 aways;
-  for (const TrianglePair& triangle : mesh) {
-    const Lanes3 from_center = point - triangle.center;
-    const Lanes bound = horizon + triangle.reach;
-    const Lanes height = Dot(triangle.normal, from_center);
-    const LaneMask counts =
-        (Dot(from_center, from_center) <= bound * bound) & (Abs(height) <= horizon);
-    if (!Any(counts)) continue;
-    const Lanes3 away = ClosestOnPair(triangle, point).away;
-    const Lanes square = Dot(away, away);
-    const Lanes ratio = Splat(e2) / (square + Splat(e2));
-    const Lanes ratio2 = ratio * ratio;
-    const Lanes weight = Select(counts, triangle.area * (ratio2 * ratio2), Lanes{});
+/// Sums over every second pair from `first` on, or over all pairs where the lanes take two.
+template <class V>
+EGO_LANES_INLINE Sums SumTriangles(std::span<const TrianglePair> mesh, std::size_t first,
+                                   const Vec3& p, double square_epsilon, double far) {
+  static const TrianglePair kNone{};  // without area: weighs nothing
+  const LaneVectors<V> point = Splat<V>(p);
+  const V e2 = Splat<V>(square_epsilon);
+  const V horizon = Splat<V>(far);
+  V weights{};
+  V planes{};
+  V squares{};
+  LaneVectors<V> normals;
+  LaneVectors<V> aways;
+  for (std::size_t k = first; k < mesh.size(); k += 2) {
+    const TriangleLanes<V> triangle = Join<V>(mesh[k], k + 1 < mesh.size() ? mesh[k + 1] : kNone);
+    const LaneVectors<V> from_center = point - triangle.center;
+    const V bound = horizon + triangle.reach;
+    const V height = Dot(triangle.normal, from_center);
+    const LaneMask<V> counts =
+        (Dot(from_center, from_center) <= bound * bound) & (Abs<V>(height) <= horizon);
+    if (!Any<V>(counts)) continue;
+    const LaneVectors<V> away = ClosestOnTriangles(triangle, point).away;
+    const V square = Dot(away, away);
+    const V ratio = e2 / (square + e2);
+    const V ratio2 = ratio * ratio;
+    const V weight = Select<V>(counts, triangle.area * (ratio2 * ratio2), V{});
     weights += weight;
     planes += weight * height;
     squares += weight * square;
     normals += weight * triangle.normal;
     aways += weight * away;
   }
-  const double weight_sum = Sum(weights);
-  if (!(weight_sum > 0.0)) return {width, Vec3{0.0}};
-  const double plane = Sum(planes) / weight_sum;
-  const double away = std::sqrt(Sum(squares) / weight_sum);
+  return {Sum(weights), Sum(planes), Sum(squares), Sum(normals), Sum(aways)};
+}
+
+Sums SumInTwoLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2, double horizon) {
+  return SumTriangles<Lanes>(mesh, 0, p, e2, horizon) +
+         SumTriangles<Lanes>(mesh, 1, p, e2, horizon);
+}
+
+EGO_WIDE_LANES_TARGET
+Sums SumInFourLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2, double horizon) {
+  return SumTriangles<WideLanes>(mesh, 0, p, e2, horizon);
+}
+
+}  // namespace
+
+SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
+                                  double width, LaneWidth lanes) {
+  if (mesh.empty()) return {width, Vec3{0.0}};
+  const double e2 = epsilon * epsilon;
+  const double horizon = std::sqrt(SquareHorizon(mesh, Splat(p), e2));
+  const Sums sum = lanes == LaneWidth::kFour ? SumInFourLanes(mesh, p, e2, horizon)
+                                             : SumInTwoLanes(mesh, p, e2, horizon);
+  if (!(sum.weight > 0.0)) return {width, Vec3{0.0}};
+  const double plane = sum.plane / sum.weight;
+  const double away = std::sqrt(sum.square / sum.weight);
   const double outside =
       1.0 - (1.0 - Smoothstep(plane / (2.0 * epsilon))) * (1.0 - Smoothstep(away / width - 1.0));
-  const Vec3 normal = Sum(normals) / weight_sum;
-  const Vec3 away_gradient = away > 1e-12 ? Sum(aways) / (weight_sum * away) : normal;
+  const Vec3 normal = sum.normal / sum.weight;
+  const Vec3 away_gradient = away > 1e-12 ? sum.away / (sum.weight * away) : normal;
   return {plane + outside * (away - plane), glm::mix(normal, away_gradient, outside)};
 }
 

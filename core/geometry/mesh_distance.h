@@ -19,9 +19,10 @@ struct SignedDistance {
 /// the surface of the signed distances to the triangles' planes, away from it of the unsigned
 /// distances, where planes seen from the side would lie about the sign. `epsilon` (metres) is the
 /// width of the smoothing; beyond `width` (metres, about half the mesh's own) only the unsigned
-/// distance counts. Infinitely differentiable but where closest points change their feature.
+/// distance counts. Infinitely differentiable but where closest points change their feature. The
+/// same bits for any `lanes`.
 SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
-                                  double width);
+                                  double width, LaneWidth lanes = FastestLanes());
 
 /// Axis-aligned box of a mesh's vertices, to leave out what is far.
 struct Box {

@@ -59,10 +59,10 @@ TEST(TrianglePair, AgreesWithEachTriangleAlone) {
     const std::array<Vec3, 3> one = {random.Vector(), random.Vector(), random.Vector()};
     const std::array<Vec3, 3> two = {random.Vector(), random.Vector(), random.Vector()};
     const TrianglePair pair =
-        TrianglePair::Of(Pair(one[0], two[0]), Pair(one[1], two[1]), Pair(one[2], two[2]));
+        MakeTrianglePair(Pair(one[0], two[0]), Pair(one[1], two[1]), Pair(one[2], two[2]));
     const Vec3 p = 3.0 * random.Vector();
-    const ClosestPair closest = ClosestOnPair(pair, Splat(p));
-    for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    const ClosestLanes<Lanes> closest = ClosestOnTriangles(pair, Splat(p));
+    for (std::size_t lane = 0; lane < kLaneCount<Lanes>; ++lane) {
       const auto& corner = lane == 0 ? one : two;
       const Triangle triangle = Triangle::Of(corner[0], corner[1], corner[2]);
       const Vec3 weight = ClosestOnTriangle(triangle, p);
@@ -78,11 +78,11 @@ TEST(TrianglePair, AgreesWithEachTriangleAlone) {
 
 TEST(TrianglePair, HasAnAnswerWithoutArea) {
   const Lanes3 point = Splat(Vec3{1.0});
-  const TrianglePair none = TrianglePair::Of(point, point, point);
-  EXPECT_EQ(ClosestOnPair(none, Splat(Vec3{5.0})).away.At(0), Vec3(4.0));
+  const TrianglePair none = MakeTrianglePair(point, point, point);
+  EXPECT_EQ(ClosestOnTriangles(none, Splat(Vec3{5.0})).away.At(0), Vec3(4.0));
   const TrianglePair line =
-      TrianglePair::Of(Splat(Vec3{0, 0, 0}), Splat(Vec3{1, 0, 0}), Splat(Vec3{2, 0, 0}));
-  EXPECT_EQ(ClosestOnPair(line, Splat(Vec3{1.5, 1, 0})).away.At(1), Vec3(0, 1, 0));
+      MakeTrianglePair(Splat(Vec3{0, 0, 0}), Splat(Vec3{1, 0, 0}), Splat(Vec3{2, 0, 0}));
+  EXPECT_EQ(ClosestOnTriangles(line, Splat(Vec3{1.5, 1, 0})).away.At(1), Vec3(0, 1, 0));
   EXPECT_EQ(line.normal.At(0), Vec3(0.0));
 }
 
@@ -182,7 +182,7 @@ TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
     for (const std::size_t one : {t, t + 1}) {
       trunk.push_back(Triangle::Of(corner(one, 0), corner(one, 1), corner(one, 2)));
     }
-    pairs.push_back(TrianglePair::Of(Pair(corner(t, 0), corner(t + 1, 0)),
+    pairs.push_back(MakeTrianglePair(Pair(corner(t, 0), corner(t + 1, 0)),
                                      Pair(corner(t, 1), corner(t + 1, 1)),
                                      Pair(corner(t, 2), corner(t + 1, 2))));
   }
@@ -198,6 +198,13 @@ TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
       }
       const SignedDistance d = SmoothMeshDistance(pairs, p, 0.009, 0.16);
       EXPECT_EQ(d.distance > 0.0, offset > 0.0);
+      for (const std::size_t count : {pairs.size(), pairs.size() - 1, std::size_t{1}}) {
+        const std::span<const TrianglePair> part = std::span(pairs).first(count);
+        const SignedDistance two = SmoothMeshDistance(part, p, 0.009, 0.16, LaneWidth::kTwo);
+        const SignedDistance fastest = SmoothMeshDistance(part, p, 0.009, 0.16, FastestLanes());
+        EXPECT_EQ(two.distance, fastest.distance);
+        EXPECT_EQ(two.gradient, fastest.gradient);
+      }
       EXPECT_NEAR(std::abs(d.distance), nearest, 0.008);
       EXPECT_GT(glm::dot(d.gradient, t.normal), 0.6);
       EXPECT_LE(box.Distance(p), nearest + 1e-12);
