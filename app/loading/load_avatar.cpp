@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/loading/file_kind.h"
-#include "assets/calibration/calibration_file.h"
+#include "assets/calibration/calibration_document.h"
 #include "assets/gltf/character_file.h"
 #include "assets/people/person.h"
 #include "core/model/avatar_body.h"
@@ -30,20 +30,20 @@ Result<LoadedAvatar> LoadAvatar(const std::filesystem::path& path, const Progres
   }
   Result<Character> character = ReadCharacter(path, Part(progress, 0.0, 0.4));
   if (!character) return Error{character.error()};
-  const Result<LoadedCalibration> calibration =
-      LoadOrProposeCalibration(*character, Part(progress, 0.4, 1.0));
-  if (!calibration) return Error{calibration.error()};
+  const Result<CalibrationDocument> loaded =
+      LoadCalibrated(*std::move(character), Part(progress, 0.4, 1.0));
+  if (!loaded) return Error{loaded.error()};
 
   LoadedAvatar avatar;
   avatar.name = path.stem().string();
   avatar.path = path;
-  avatar.body = std::make_shared<const Body>(MakeAvatarBody(*character, calibration->calibration));
-  avatar.calibration = Summarize(calibration->calibration);
-  avatar.calibrated_by_file = calibration->from_file;
-  avatar.notes = character->notes;
-  avatar.notes.insert(avatar.notes.end(), calibration->warnings.begin(),
-                      calibration->warnings.end());
-  avatar.character = std::make_shared<const Character>(*std::move(character));
+  avatar.character = loaded->character;
+  avatar.body =
+      std::make_shared<const Body>(MakeAvatarBody(*avatar.character, loaded->calibration));
+  avatar.calibration = Summarize(loaded->calibration);
+  avatar.calibrated_by_file = loaded->from_file;
+  avatar.notes = avatar.character->notes;
+  avatar.notes.insert(avatar.notes.end(), loaded->warnings.begin(), loaded->warnings.end());
   return avatar;
 }
 

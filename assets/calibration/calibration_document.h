@@ -26,6 +26,8 @@ struct CalibrationDocument {
   /// What the studio would propose; what ResetToProposal goes back to.
   AvatarCalibration proposal;
   bool from_file = false;  // else proposed
+  /// There is a calibration file that could not be used: a save puts it aside first.
+  bool damaged = false;
   std::vector<std::string> warnings;
 };
 
@@ -35,5 +37,8 @@ Result<CalibrationDocument> OpenCalibration(const std::filesystem::path& avatar,
                                             const Progress& progress = {});
 /// The same for a character that is in memory already.
 Result<CalibrationDocument> OpenCalibration(Character character, const Progress& progress = {});
+
+/// The same for the stage, which never goes back to a proposal: `proposal` is the calibration.
+Result<CalibrationDocument> LoadCalibrated(Character character, const Progress& progress = {});
 
 }  // namespace ego

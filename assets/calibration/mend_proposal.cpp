@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "assets/calibration/crude_mesh.h"
 #include "assets/calibration/proposal_draft.h"
 
 namespace ego {
@@ -65,27 +66,6 @@ void ReconcilePair(ProposalDraft& draft, CalibrationPoint& left, CalibrationPoin
   }
 }
 
-/// How sound a crude triangle is: 1 for one that faces as the template's does and is no sliver,
-/// at most 0 for one that faces inward or has no area.
-double Soundness(const ProposalDraft& draft, std::size_t index, const Vec3& trunk_middle,
-                 const Vec3& head_middle) {
-  const SampleTriangle& t = SampleTriangles()[index];
-  const std::array<Vec3, 3> p = {draft.At(t[0]), draft.At(t[1]), draft.At(t[2])};
-  const std::array<Vec3, 3> q = {draft.TemplateAt(t[0]), draft.TemplateAt(t[1]),
-                                 draft.TemplateAt(t[2])};
-  const Vec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
-  const double area2 = glm::length(cross);
-  const double longest =
-      std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
-  if (!(longest > 0.0) || area2 < 0.02 * longest * longest) return 0.0;
-  const Vec3 normal = cross / area2;
-  const Vec3 usual = glm::normalize(glm::cross(q[1] - q[0], q[2] - q[0]));
-  const Vec3 middle = IsHead(t[0]) ? head_middle : trunk_middle;
-  const Vec3 out = (p[0] + p[1] + p[2]) / 3.0 - middle;
-  const double outward = glm::dot(normal, out) / std::max(glm::length(out), 1e-12);
-  return std::max(glm::dot(normal, usual), 0.5 * outward);
-}
-
 }  // namespace
 
 void ReconcileSides(ProposalDraft& draft) {
@@ -122,25 +102,17 @@ void ReconcileSides(ProposalDraft& draft) {
 void MendTriangles(ProposalDraft& draft) {
   constexpr double kSound = 0.05;
   constexpr std::array<double, 4> kTowardsTemplate = {0.3, 0.5, 0.75, 1.0};
-  Vec3 trunk{0.0};
-  Vec3 head{0.0};
-  const auto measure_middles = [&] {
-    trunk = head = Vec3{0.0};
-    for (std::size_t i = 0; i < kSampleCount; ++i) {
-      const Vec3 p = draft.At(static_cast<S>(i));
-      if (i < kTrunkSampleCount) {
-        trunk += p / static_cast<double>(kTrunkSampleCount);
-      } else {
-        head += p / static_cast<double>(kSampleCount - kTrunkSampleCount);
-      }
-    }
+  const auto soundness = [&] {
+    SamplePlaces places;
+    for (std::size_t i = 0; i < kSampleCount; ++i) places[i] = draft.At(static_cast<S>(i));
+    return Soundness(places, draft.template_body.surface.sample_ms);
   };
   for (const double share : kTowardsTemplate) {
-    measure_middles();
+    const std::array<double, kTriangleCount> sound = soundness();
     std::array<bool, kSampleCount> move{};
     bool any = false;
     for (std::size_t i = 0; i < kTriangleCount; ++i) {
-      if (Soundness(draft, i, trunk, head) > kSound) continue;
+      if (sound[i] > kSound) continue;
       any = true;
       double least = 2.0;
       for (const S p : SampleTriangles()[i]) {
@@ -163,9 +135,9 @@ void MendTriangles(ProposalDraft& draft) {
       if (point.state != PickState::kMissing) point.state = PickState::kDoubtful;
     }
   }
-  measure_middles();
+  const std::array<double, kTriangleCount> sound = soundness();
   for (std::size_t i = 0; i < kTriangleCount; ++i) {
-    if (Soundness(draft, i, trunk, head) > kSound) continue;
+    if (sound[i] > kSound) continue;
     for (const S p : SampleTriangles()[i]) {
       CalibrationPoint& point = draft.calibration.At(p);
       point.confidence = std::min(point.confidence, 0.2);

@@ -42,7 +42,12 @@ Body TemplateBodyOf(const Character& character) {
 }
 
 Body MakeAvatarBody(const Character& character, const AvatarCalibration& calibration) {
-  Body body = TemplateBodyOf(character);
+  return MakeAvatarBody(character, calibration, TemplateBodyOf(character));
+}
+
+Body MakeAvatarBody(const Character& character, const AvatarCalibration& calibration,
+                    const Body& template_body) {
+  Body body = template_body;
   const std::vector<Mat4> skin = SkinMatrices(character, character.rig.canonical_global);
   const auto known = [&](const CalibrationPoint& point) {
     return point.state != PickState::kMissing && IsOn(character, point.place);

@@ -15,6 +15,9 @@ namespace ego {
 ///
 /// `height` is the height of the crown sample, or of the whole mesh where that is unknown.
 Body MakeAvatarBody(const Character& character, const AvatarCalibration& calibration);
+/// The same, with TemplateBodyOf(character) made before: for every step of an edit.
+Body MakeAvatarBody(const Character& character, const AvatarCalibration& calibration,
+                    const Body& template_body);
 
 /// The template on the character's skeleton, for comparison and as the last resort. Its height is
 /// judged from the head's skin, bounded by what is plausible above the head joint.

@@ -33,6 +33,8 @@ struct CalibrationPoint {
   PickState state = PickState::kMissing;
   double confidence = 0.0;  // 0 to 1; 1 for what a person picked or confirmed
   std::string reason;       // why it is doubtful or missing, one clause; else empty
+
+  friend bool operator==(const CalibrationPoint&, const CalibrationPoint&) = default;
 };
 
 /// Thickness of one limb segment (paper, section 4.2: the gray dots of figure 5).
@@ -45,6 +47,8 @@ struct SegmentCalibration {
   PickState state = PickState::kMissing;  // of the radius as a whole
   double confidence = 0.0;
   std::string reason;
+
+  friend bool operator==(const SegmentCalibration&, const SegmentCalibration&) = default;
 };
 
 struct HandCalibration {
@@ -53,12 +57,16 @@ struct HandCalibration {
   CalibrationPoint fingertip;     // tip of the middle finger, palm side
   /// Metres. Half the distance from palm to back of hand where both are known.
   double half_thickness = 0.0;
+
+  friend bool operator==(const HandCalibration&, const HandCalibration&) = default;
 };
 
 struct FootCalibration {
   CalibrationPoint heel;  // lowest point of the heel
   CalibrationPoint ball;  // lowest point under the ball
   CalibrationPoint toe_tip;
+
+  friend bool operator==(const FootCalibration&, const FootCalibration&) = default;
 };
 
 /// Everything that a person clicks, or the studio proposes, to make an avatar of a character
@@ -77,6 +85,8 @@ struct AvatarCalibration {
   const CalibrationPoint& At(SamplePoint p) const { return sample[Index(p)]; }
   SegmentCalibration& At(LimbSegment s) { return segment[Index(s)]; }
   const SegmentCalibration& At(LimbSegment s) const { return segment[Index(s)]; }
+
+  friend bool operator==(const AvatarCalibration&, const AvatarCalibration&) = default;
 };
 
 /// Every single point of a calibration under a stable name, for lists, files and undo: samples

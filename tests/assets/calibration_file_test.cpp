@@ -146,7 +146,7 @@ TEST_F(CalibrationFileTest, ErrorsNameTheFileAndTheObject) {
   };
   const std::vector<Case> cases = {
       {"/format", "something else", "format"},
-      {"/version", 2, "version"},
+      {"/version", 3, "version"},
       {"/meshHash", 12, "meshHash"},
       {"/samples/navel/part", 9, "samples.navel.part"},
       {"/samples/navel/part", "zero", "samples.navel.part"},
