@@ -33,11 +33,11 @@ LimbPosture AdaptLimb(const AdaptState& state, Limb limb, const LimbTargets& tar
                       bool with_planes) {
   const LimbChain& chain = state.chain[Index(limb)];
   const LimbPosture& posture = state.limb[Index(limb)];
-  const LimbPlacement placed = Place(chain, posture);
+  const LimbJoints joints = JointsOf(limb);
   const LimbPosture& start = state.settings.start_from_captured ? chain.captured : posture;
-  const LimbPosture attracted =
-      BlendedIk(chain, start, glm::mix(placed.mid, targets.mid, w),
-                glm::mix(placed.end, targets.end, w), state.gamma[Index(limb)]);
+  const LimbPosture attracted = BlendedIk(
+      chain, start, glm::mix(state.posed.pose.Position(joints.mid), targets.mid, w),
+      glm::mix(state.posed.pose.Position(joints.end), targets.end, w), state.gamma[Index(limb)]);
   return with_planes ? EnsureSpatialOrder(state, limb, attracted, w) : attracted;
 }
 
@@ -57,10 +57,7 @@ void AlignExtremities(AdaptState& state, const std::array<Limb, 2>& pair,
   for (std::size_t k = 0; k < 2; ++k) {
     aligned[k] = AlignExtremity(state, pair[k], captured_ws[Index(pair[k])]);
   }
-  for (std::size_t k = 0; k < 2; ++k) {
-    state.extremity_ws[Index(pair[k])] = aligned[k];
-    state.Apply(pair[k], state.limb[Index(pair[k])]);
-  }
+  for (std::size_t k = 0; k < 2; ++k) state.TurnExtremity(pair[k], aligned[k]);
 }
 
 /// One pass over all limbs, legs first: arms find them where they will be.

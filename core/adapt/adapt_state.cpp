@@ -75,4 +75,12 @@ void AdaptState::Apply(Limb l, const LimbPosture& posture) {
   PlaceLimb(avatar, constants, l, posed);
 }
 
+void AdaptState::TurnExtremity(Limb l, const Quat& rotation_ws) {
+  const HumanoidJoint joint = JointsOf(l).end;
+  if (avatar.skeleton.locked[Index(joint)]) return;
+  extremity_ws[Index(l)] = rotation_ws;
+  posed.pose.rotation_ws[Index(joint)] = rotation_ws;
+  if (IsArm(l)) PlaceHand(avatar, constants, l, posed);
+}
+
 }  // namespace ego

@@ -46,6 +46,8 @@ struct AdaptState {
   void ReadLimbs();
   /// Takes a posture for a limb and places its joints, capsules, hand.
   void Apply(Limb limb, const LimbPosture& posture);
+  /// Takes a world rotation for a hand or foot; the limb stays.
+  void TurnExtremity(Limb limb, const Quat& rotation_ws);
 };
 
 }  // namespace ego

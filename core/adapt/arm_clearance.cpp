@@ -63,13 +63,16 @@ bool MeasureMesh(const BodyObstacles& body, std::size_t obstacle, const ArmSampl
   return true;
 }
 
+/// How far the performer's side pulls at a direction out of a capsule, metres.
+double Nudge(const AdaptState& state) { return 0.015 * state.scale; }
+
 /// The same for a capsule. False where it is farther than `horizon`.
 bool MeasureCapsule(const AdaptState& state, const CapsuleObstacle& obstacle,
                     const ArmSample& sample, const Vec3& side_ls, double horizon,
                     SignedDistance& out) {
   // Along any direction the distance is less than the length, so `horizon` rejects safely.
   const double filled = obstacle.capsule->radius + sample.radius;
-  const double nudge = 0.015 * state.scale;
+  const double nudge = Nudge(state);
   const double far = filled + horizon + 2.0 * nudge;
   if (obstacle.IsFartherThan(far, sample.center)) return false;
   const Vec3 from_axis = obstacle.FromAxis(sample.center);
@@ -86,24 +89,51 @@ double Need(double clearance, double margin) {
   return clearance <= 0.0 ? clearance : margin * -std::expm1(-clearance / margin);
 }
 
+/// Some samples of an arm in one ball, to leave out together what is far from all of them.
+struct SampleBall {
+  SampleBall(const ArmSamples& samples, std::size_t first, std::size_t end)
+      : center(0.5 * (samples[first].center + samples[end - 1].center)) {
+    for (std::size_t s = first; s < end; ++s) {
+      reach = std::max(reach, glm::distance(center, samples[s].center) + samples[s].radius);
+    }
+  }
+  bool IsFartherThan(double distance, const CapsuleObstacle& obstacle) const {
+    return obstacle.IsFartherThan(reach + obstacle.capsule->radius + distance, center);
+  }
+  Vec3 center;
+  double reach = 0.0;
+};
+
 void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
                  const ArmSamples& samples, MeshMemory& memory, Rows& rows) {
   const double height = state.avatar.height;
   const double margin = state.scale * state.settings.clearance_margin;
   const double fade = state.scale * state.settings.contact_fade;
   const CapsuleObstacles capsules = CapsuleObstaclesOf(state.posed, arm);
+  // Upper arm and elbow, then forearm and hand.
+  const std::array<SampleBall, 2> ball = {SampleBall(samples, 0, 3),
+                                          SampleBall(samples, 3, kClearanceSampleCount)};
+  std::array<std::array<bool, kObstacleCount>, 2> is_far{};
+  for (std::size_t b = 0; b < ball.size(); ++b) {
+    for (std::size_t o = kFirstCapsuleObstacle; o < kObstacleCount; ++o) {
+      is_far[b][o] =
+          ball[b].IsFartherThan(margin + 2.0 * Nudge(state), capsules[o - kFirstCapsuleObstacle]);
+    }
+  }
   const std::size_t count =
       state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
   for (std::size_t s = 0; s < count; ++s) {
     const ArmSample& sample = samples[s];
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
+      const bool of_hand = s >= kFirstContactSample;
+      if (!of_hand && is_far[s < 3 ? 0 : 1][o]) continue;
       const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
       const double clearance = performer.distance * height;
       const bool other_hand = o == kObstacleCount - 1;
       // Both arms move when one is in the other's way.
       const bool other_arm = o == 2 || o == 3 || other_hand;
       const double share = other_arm ? 0.5 : 1.0;
-      const double touching = s >= kFirstContactSample && performer.known && clearance < fade
+      const double touching = of_hand && performer.known && clearance < fade
                                   ? performer.trust * (1.0 - Smoothstep(clearance / fade))
                                   : 0.0;
       // Far from an obstacle nothing can be asked: most samples of most postures.

@@ -204,7 +204,7 @@ void SumBody(AdaptState& state) {
   }
   for (const Limb limb : kLimbs) {
     const NormalCoordinates& normal = state.egocentric.normal[Index(limb)];
-    Lanes3 sum;
+    Lanes3 sum{};
     for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
       const TangentPair& tangent = state.posed.tangent[t];
       sum += normal.triangle[t].x * state.posed.triangle[t].normal;

@@ -32,10 +32,10 @@ double Signed(double required, double captured) {
   return required + 2.0 * captured / (1.0 + beyond * beyond);
 }
 
-/// Mid rotation with the angle between the bones brought to `cosine`.
-Quat FlexTo(const LimbChain& chain, const Quat& mid, double cosine) {
+/// Mid rotation, of which `flexion` is measured, with the angle between the bones brought to
+/// `cosine`.
+Quat FlexTo(const LimbChain& chain, const Quat& mid, const Flexion& flexion, double cosine) {
   if (chain.mid_locked || !chain.has_bones) return mid;
-  const Flexion flexion = MeasureFlexion(chain, mid);
   if (flexion.in_plane < 1e-6) return mid;  // the lower bone lies along the hinge: nothing turns it
   const double limit = std::max(kMaxFlexion, chain.captured_flexion);
   const double required =
@@ -143,7 +143,8 @@ LimbPosture ReachEnd(const LimbChain& chain, const LimbPosture& posture, const V
     // distance^2 = (upper + lower)^2 - 2 upper lower (1 - cos)
     const double reach = upper + lower;
     const double deficit = (reach - distance) * (reach + distance) / (2.0 * upper * lower);
-    reached.mid = FlexTo(chain, posture.mid, 1.0 - SoftDeficit(chain, deficit));
+    reached.mid = FlexTo(chain, posture.mid, MeasureFlexion(chain, posture.mid),
+                         1.0 - SoftDeficit(chain, deficit));
   }
   const Vec3 chord = Place(chain, reached).end - chain.base_ws;
   const double length = glm::length(chord);
@@ -177,7 +178,7 @@ LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const
   if (!chain.has_bones) return ReachEnd(chain, posture, end_target);
   const Vec3 to_mid = mid_target - chain.base_ws;
   const double distance = glm::length(to_mid);
-  const Vec3 upper_now = glm::normalize(Place(chain, reached).mid - chain.base_ws);
+  const Vec3 upper_now = chain.frame_ws * reached.base * chain.upper_unit;
   if (distance > 1e-9) {
     const double near = 0.2 * chain.upper_length;
     reached.base = TurnBase(chain, reached.base, upper_now, to_mid / distance,
@@ -190,16 +191,16 @@ LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const
   const double end_distance = glm::length(to_end);
   if (end_distance < 1e-9) return reached;
   const Vec3 wanted = to_end / end_distance;
-  const double flexion = MeasureFlexion(chain, reached.mid).angle;
+  const Flexion flexion = MeasureFlexion(chain, reached.mid);
   const double twist = AngleAbout(upper, placed.end - placed.mid, wanted) *
                        Trust(glm::length(Perpendicular(to_end, upper)), 0.05 * chain.Reach());
-  reached.base = TwistBase(chain, reached.base, upper, BoundTwist(twist, flexion));
+  reached.base = TwistBase(chain, reached.base, upper, BoundTwist(twist, flexion.angle));
 
   const double now = glm::dot(upper, glm::normalize(placed.end - placed.mid));
   const double cosine = glm::dot(upper, wanted);
   const double near = 0.1 * chain.lower_length;
   const double trust = end_distance > near ? 1.0 : Smoothstep(end_distance / near);
-  reached.mid = FlexTo(chain, reached.mid, glm::mix(now, cosine, trust));
+  reached.mid = FlexTo(chain, reached.mid, flexion, glm::mix(now, cosine, trust));
   return reached;
 }
 

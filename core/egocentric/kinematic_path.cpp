@@ -79,7 +79,9 @@ MeshPaths MakeMeshPaths(std::size_t first, std::size_t end, LimbPoint to) {
     }
   }
   for (std::size_t t = first; t < end; ++t) {
-    MeshPaths::OfPair& pair = paths.pair[Index(ParentJoint(t - t % 2))];
+    const std::size_t joint = Index(ParentJoint(t - t % 2));
+    paths.joint[t / 2] = static_cast<std::uint8_t>(joint);
+    MeshPaths::OfPair& pair = paths.by_joint[joint];
     const KinematicPath& path = PathBetween(ParentJoint(t), to);
     for (std::size_t column = 0; column < paths.length; ++column) {
       const auto path_end = path.bone.begin() + path.length;

@@ -43,7 +43,9 @@ struct MeshPaths {
     std::size_t used = 0;
     std::array<Lanes, kMaxPathLength> on_path{};
   };
-  std::array<OfPair, kJointCount> pair{};
+  std::array<OfPair, kJointCount> by_joint{};
+  std::array<std::uint8_t, kTriangleCount / 2> joint{};  // of every pair of both meshes
+  const OfPair& Of(std::size_t pair) const { return by_joint[joint[pair]]; }
 };
 const MeshPaths& PathsFromTrunk(LimbPoint to);
 const MeshPaths& PathsFromHead(LimbPoint to);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/egocentric/mesh_relations.h"
 
+#include <algorithm>
+
 namespace ego {
 namespace {
 
@@ -44,7 +46,7 @@ template <class V>
 struct Columns {
   std::array<LaneVectors<V>, kMaxPathLength> direction;
   std::array<V, kMaxPathLength> length;
-  std::array<LaneVectors<V>, kMaxPathLength> along;
+  std::array<LaneVectors<V>, kMaxPathLength> along{};
 };
 
 /// Equations 4 and 5: the gap over tau, spread over the bones again. `direction` are the unit
@@ -90,7 +92,7 @@ EGO_LANES_INLINE void RelatePart(const MeshQuery& query, std::size_t first, std:
     columns.length[i] = Splat<V>(query.constants.bone_length[bone]);
   }
   LaneTotal<V> lanes;
-  LaneVectors<V> inside_sum;
+  LaneVectors<V> inside_sum{};
   for (std::size_t t = first; t < end; t += 2) {
     const std::size_t u = kLaneCount<V> == 2 ? t : t + 1;
     const TriangleLanes<V> triangles = Join<V>(query.posed.triangle[t], query.posed.triangle[u]);
@@ -107,8 +109,7 @@ EGO_LANES_INLINE void RelatePart(const MeshQuery& query, std::size_t first, std:
     Store<V>(importance * closest.c, &weights.c[t]);
     const V inside = is_thick ? Min<V>(one, reach * per_thickness) : one;
     inside_sum += (importance * inside) * direction;
-    SpreadOverBones<V>(query.paths.pair[Index(ParentJoint(2 * t))],
-                       query.paths.pair[Index(ParentJoint(2 * u))], direction,
+    SpreadOverBones<V>(query.paths.Of(t), query.paths.Of(u), direction,
                        importance * Max<V>(V{}, gap), query.least_factor, columns);
   }
   part.sum += Sum(lanes.sum);

@@ -149,21 +149,24 @@ void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, Pose
   }
   posed.point[Index(MidPoint(limb))] = posed.pose.Position(joints.mid);
   posed.point[Index(EndPoint(limb))] = posed.pose.Position(joints.end);
-  if (!IsArm(limb)) return;
-  const Quat& rotation = posed.pose.Rotation(joints.end);
-  for (const LimbPoint point : {PalmPoint(limb), FingertipPoint(limb)}) {
+  if (IsArm(limb)) PlaceHand(body, constants, limb, posed);
+}
+
+void PlaceHand(const Body& body, const BodyConstants& constants, Limb arm, PosedBody& posed) {
+  const HumanoidJoint joint = JointsOf(arm).end;
+  const Vec3& wrist = posed.pose.Position(joint);
+  const Mat3 rotation = glm::mat3_cast(posed.pose.Rotation(joint));
+  for (const LimbPoint point : {PalmPoint(arm), FingertipPoint(arm)}) {
     posed.point[Index(point)] =
-        posed.pose.Position(joints.end) +
-        rotation * constants.hand_point_offset[Index(point) - kLimbJointCount];
+        wrist + rotation * constants.hand_point_offset[Index(point) - kLimbJointCount];
   }
-  PosedCapsule& hand = posed.hand[Index(limb)];
-  hand.start = posed.pose.Position(joints.end);
+  PosedCapsule& hand = posed.hand[Index(arm)];
+  hand.start = wrist;
   // In the middle of the hand's thickness, so that the palm lies on the capsule.
-  const Vec3& tip = constants.hand_point_offset[Index(FingertipPoint(limb)) - kLimbJointCount];
-  hand.end =
-      hand.start + rotation * Perpendicular(tip, body.surface.hand[Index(limb)].palm_normal_ms);
-  hand.radius = body.surface.hand[Index(limb)].half_thickness;
-  hand.frame = glm::mat3_cast(rotation) * constants.segment_frame[2 * Index(limb) + 1];
+  const Vec3& tip = constants.hand_point_offset[Index(FingertipPoint(arm)) - kLimbJointCount];
+  hand.end = wrist + rotation * Perpendicular(tip, body.surface.hand[Index(arm)].palm_normal_ms);
+  hand.radius = body.surface.hand[Index(arm)].half_thickness;
+  hand.frame = rotation * constants.segment_frame[2 * Index(arm) + 1];
 }
 
 void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,

@@ -85,5 +85,7 @@ void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody&
 
 /// The capsules, points and hand of one limb again, from joints already in `posed.pose`.
 void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, PosedBody& posed);
+/// The hand of an arm alone, when nothing but its rotation changed.
+void PlaceHand(const Body& body, const BodyConstants& constants, Limb arm, PosedBody& posed);
 
 }  // namespace ego

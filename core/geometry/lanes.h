@@ -85,12 +85,12 @@ EGO_LANES_INLINE V Join(const Lanes& first, const Lanes& second) {
   }
 }
 
-/// Vectors side by side.
+/// Vectors side by side; like those of GLM not initialised by themselves.
 template <class V>
 struct LaneVectors {
-  V x{};
-  V y{};
-  V z{};
+  V x;
+  V y;
+  V z;
 
   Vec3 At(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/geometry/mesh_distance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,19 +14,44 @@ namespace {
 /// than 1.6e-5 of it and are left out: the distance changes by micrometres.
 constexpr double kNegligible = 16.0;
 
-/// Square of a distance from a point beyond which no triangle counts.
-double SquareHorizon(std::span<const TrianglePair> mesh, const Lanes3& p, double e2) {
-  Lanes least = Splat(std::numeric_limits<double>::max());
-  Lanes nearest{};
-  for (std::size_t k = 0; k < mesh.size(); ++k) {
-    const Lanes3 d = p - mesh[k].center;
-    const Lanes square = Dot(d, d);
-    nearest = Select<Lanes>(square < least, Splat(static_cast<double>(k)), nearest);
-    least = Min<Lanes>(least, square);
+const TrianglePair kNone{};  // without area: weighs nothing
+
+/// The pair whose centroid is nearest to `p`, and which of both.
+struct Nearest {
+  std::size_t pair = 0;
+  std::size_t lane = 0;
+};
+template <class V>
+EGO_LANES_INLINE Nearest NearestCentroid(std::span<const TrianglePair> mesh, const Vec3& p) {
+  constexpr std::size_t kPairs = kLaneCount<V> / 2;
+  const LaneVectors<V> point = Splat<V>(p);
+  V least = Splat<V>(std::numeric_limits<double>::max());
+  V nearest{};
+  for (std::size_t k = 0; k < mesh.size(); k += kPairs) {
+    const std::size_t other = std::min(k + 1, mesh.size() - 1);  // once more at the end: no harm
+    const LaneVectors<V> d = point - Join<V>(mesh[k].center, mesh[other].center);
+    const V square = Dot(d, d);
+    nearest = Select<V>(square < least, Splat<V>(static_cast<double>(k)), nearest);
+    least = Min<V>(least, square);
   }
-  const std::size_t lane = least[1] < least[0] ? 1 : 0;
-  const Lanes3 away = ClosestOnTriangles(mesh[static_cast<std::size_t>(nearest[lane])], p).away;
-  return kNegligible * (Dot(away, away)[lane] + e2);
+  // Of equally near ones the first, in any width.
+  Nearest found;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t l = 0; l < kLaneCount<V>; ++l) {
+    const std::size_t pair =
+        std::min(static_cast<std::size_t>(nearest[l]) + l / 2, mesh.size() - 1);
+    if (least[l] < best || (least[l] == best && pair < found.pair)) found = {pair, l % 2};
+    best = std::min(best, static_cast<double>(least[l]));
+  }
+  return found;
+}
+
+/// Distance from a point beyond which no triangle counts.
+template <class V>
+EGO_LANES_INLINE double Horizon(std::span<const TrianglePair> mesh, const Vec3& p, double e2) {
+  const Nearest nearest = NearestCentroid<V>(mesh, p);
+  const Lanes3 away = ClosestOnTriangles(mesh[nearest.pair], Splat(p)).away;
+  return std::sqrt(kNegligible * (Dot(away, away)[nearest.lane] + e2));
 }
 
 /// Weighted sums over triangles.
@@ -45,15 +71,14 @@ struct Sums {
 template <class V>
 EGO_LANES_INLINE Sums SumTriangles(std::span<const TrianglePair> mesh, std::size_t first,
                                    const Vec3& p, double square_epsilon, double far) {
-  static const TrianglePair kNone{};  // without area: weighs nothing
   const LaneVectors<V> point = Splat<V>(p);
   const V e2 = Splat<V>(square_epsilon);
   const V horizon = Splat<V>(far);
   V weights{};
   V planes{};
   V squares{};
-  LaneVectors<V> normals;
-  LaneVectors<V> aways;
+  LaneVectors<V> normals{};
+  LaneVectors<V> aways{};
   for (std::size_t k = first; k < mesh.size(); k += 2) {
     const TriangleLanes<V> triangle = Join<V>(mesh[k], k + 1 < mesh.size() ? mesh[k + 1] : kNone);
     const LaneVectors<V> from_center = point - triangle.center;
@@ -76,13 +101,15 @@ EGO_LANES_INLINE Sums SumTriangles(std::span<const TrianglePair> mesh, std::size
   return {Sum(weights), Sum(planes), Sum(squares), Sum(normals), Sum(aways)};
 }
 
-Sums SumInTwoLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2, double horizon) {
+Sums SumInTwoLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2) {
+  const double horizon = Horizon<Lanes>(mesh, p, e2);
   return SumTriangles<Lanes>(mesh, 0, p, e2, horizon) +
          SumTriangles<Lanes>(mesh, 1, p, e2, horizon);
 }
 
 EGO_WIDE_LANES_TARGET
-Sums SumInFourLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2, double horizon) {
+Sums SumInFourLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2) {
+  const double horizon = Horizon<WideLanes>(mesh, p, e2);
   return SumTriangles<WideLanes>(mesh, 0, p, e2, horizon);
 }
 
@@ -92,9 +119,8 @@ SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3
                                   double width, LaneWidth lanes) {
   if (mesh.empty()) return {width, Vec3{0.0}};
   const double e2 = epsilon * epsilon;
-  const double horizon = std::sqrt(SquareHorizon(mesh, Splat(p), e2));
-  const Sums sum = lanes == LaneWidth::kFour ? SumInFourLanes(mesh, p, e2, horizon)
-                                             : SumInTwoLanes(mesh, p, e2, horizon);
+  const Sums sum =
+      lanes == LaneWidth::kFour ? SumInFourLanes(mesh, p, e2) : SumInTwoLanes(mesh, p, e2);
   if (!(sum.weight > 0.0)) return {width, Vec3{0.0}};
   const double plane = sum.plane / sum.weight;
   const double away = std::sqrt(sum.square / sum.weight);

@@ -13,18 +13,18 @@ struct TriangleLanes {
   LaneVectors<V> ac;
   LaneVectors<V> normal;  // unit, right-handed about a, b, c; zero for a triangle without area
   LaneVectors<V> center;  // centroid
-  V reach{};              // from there to the farthest corner
-  V area{};
+  V reach;                // from there to the farthest corner
+  V area;
   // Products of the edges, and one over those that are divided by (0 for an edge without length
   // and for a triangle without area).
-  V ab_ab{};
-  V ab_ac{};
-  V ac_ac{};
-  V square{};  // of twice the area
-  V per_ab{};
-  V per_ac{};
-  V per_bc{};
-  V per_square{};
+  V ab_ab;
+  V ab_ac;
+  V ac_ac;
+  V square;  // of twice the area
+  V per_ab;
+  V per_ac;
+  V per_bc;
+  V per_square;
 };
 
 /// Two triangles as they are stored: of a body's crude mesh, one and its mirror partner.
@@ -50,8 +50,8 @@ EGO_LANES_INLINE TriangleLanes<V> Join(const TrianglePair& first, const Triangle
 /// The points of triangles that are closest to a point.
 template <class V>
 struct ClosestLanes {
-  V b{};  // barycentric coordinates of corners b and c, not negative
-  V c{};
+  V b;  // barycentric coordinates of corners b and c, not negative
+  V c;
   LaneVectors<V> away;  // from the closest point to the given one
 };
 
