@@ -131,6 +131,30 @@ std::string Visit(const tinygltf::Model& model, const tinygltf::Accessor& access
   return {};
 }
 
+/// The most elements that data of the file stand behind in any accessor; the count stops at
+/// `enough`.
+std::size_t MostBackedElements(const tinygltf::Model& model, std::size_t enough) {
+  // How many elements of a size a view holds, whatever it says about itself.
+  const auto holds = [&](int index, std::size_t size) -> std::size_t {
+    if (index < 0 || static_cast<std::size_t>(index) >= model.bufferViews.size()) return 0;
+    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(index)];
+    if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) return 0;
+    const std::size_t data = model.buffers[static_cast<std::size_t>(view.buffer)].data.size();
+    return std::min(view.byteLength, data) / std::max<std::size_t>(1, size);
+  };
+  std::size_t most = 0;
+  for (const tinygltf::Accessor& accessor : model.accessors) {
+    std::size_t backed = holds(accessor.bufferView, ComponentSize(accessor.componentType));
+    if (accessor.sparse.isSparse) {
+      backed = std::max(backed, holds(accessor.sparse.indices.bufferView,
+                                      ComponentSize(accessor.sparse.indices.componentType)));
+    }
+    most = std::max(most, std::min(accessor.count, backed));
+    if (most >= enough) break;
+  }
+  return most;
+}
+
 /// The accessor, checked for shape; null with a reason.
 const tinygltf::Accessor* Find(const tinygltf::Model& model, int index, int components,
                                std::string& why) {
@@ -148,6 +172,25 @@ const tinygltf::Accessor* Find(const tinygltf::Model& model, int index, int comp
     why = "has " + std::to_string(accessor.count) + " elements; at most " +
           std::to_string(kMaxElements) + " are read";
     return nullptr;
+  }
+  // Both before anything is allocated for the elements.
+  const std::size_t element =
+      ComponentSize(accessor.componentType) * static_cast<std::size_t>(components);
+  if (accessor.bufferView >= 0 &&
+      Locate(model, accessor.bufferView, accessor.byteOffset, element, accessor.count, true)
+              .first == nullptr) {
+    why = "runs past the end of its buffer view";
+    return nullptr;
+  }
+  // Zeros that no byte of the file stands for: as many as something else in it has, no more.
+  if (accessor.bufferView < 0) {
+    const std::size_t backed = MostBackedElements(model, accessor.count);
+    if (accessor.count > backed) {
+      why = "has " + std::to_string(accessor.count) +
+            " elements and no buffer view, but the file " + "holds data for at most " +
+            std::to_string(backed);
+      return nullptr;
+    }
   }
   return &accessor;
 }

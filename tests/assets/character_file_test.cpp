@@ -280,6 +280,22 @@ TEST(ReadCharacter, RefusesBrokenFilesWithOneSentence) {
       {"POSITION refers", [](Sample& s) { s.Attribute("POSITION") = 1000; }},
       {"POSITION", [](Sample& s) { s.AccessorOf("POSITION")["count"] = 4000; }},
       {"elements", [](Sample& s) { s.AccessorOf("POSITION")["count"] = 4000000000u; }},
+      {"runs past the end of its buffer view",
+       [](Sample& s) { s.AccessorOf("POSITION")["count"] = 16000000u; }},
+      {"no buffer view",  // zeros that nothing in the file stands for
+       [](Sample& s) {
+         s.AccessorOf("POSITION").erase("bufferView");
+         s.AccessorOf("POSITION")["count"] = 16000000u;
+       }},
+      {"no buffer view",
+       [](Sample& s) {
+         Json& accessor = s.AccessorOf("POSITION");
+         accessor.erase("bufferView");
+         accessor["count"] = 16000000u;
+         accessor["sparse"] = {{"count", 16000000u},
+                               {"indices", {{"bufferView", 0}, {"componentType", 5121}}},
+                               {"values", {{"bufferView", 0}}}};
+       }},
       {"shape", [](Sample& s) { s.AccessorOf("POSITION")["type"] = "VEC2"; }},
       {"sparse",
        [](Sample& s) {
