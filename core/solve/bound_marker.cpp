@@ -2,6 +2,9 @@
 #include "core/solve/bound_marker.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/solve/posture_cost.h"
 
 namespace ego {
 namespace {
@@ -45,7 +48,41 @@ Quat LocalRotation(J joint, const ModelPose& pose) {
   return glm::conjugate(pose.Rotation(Parent(joint))) * pose.Rotation(joint);
 }
 
+bool FollowsChild(const BoundMarker& marker) {
+  return marker.child != J::kHips && (marker.slides || marker.Share(SkinShare::kWithChild) != 0.0);
+}
+
+/// d(joint's rotation, on the right) / d(dof of that joint).
+Vec3 RightTurn(const Dof& dof, const ModelPose& pose, const Vec3& axis_ws) {
+  if (dof.kind == DofKind::kTranslation) return Vec3{0.0};
+  return glm::conjugate(pose.Rotation(dof.joint)) * axis_ws;
+}
+
 }  // namespace
+
+JointTurn TurnOf(HumanoidJoint joint, const Quat& rotation_ls) {
+  constexpr double kSoftness = 0.02;
+  const Quat q = glm::conjugate(NeutralPosture().rotation_ls[Index(joint)]) * rotation_ls;
+  const Vec3 v{q.x, q.y, q.z};
+  const double s = q.w * q.w + kSoftness;
+  const double sign = q.w / std::sqrt(s);  // smooth: q and -q are one rotation
+  const double d_sign = kSoftness / (s * std::sqrt(s));
+  const Mat3 cross{0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0};  // columns of [v]
+  return {2.0 * sign * v, sign * (q.w * Mat3{1.0} + cross) - d_sign * glm::outerProduct(v, v)};
+}
+
+std::array<double, kSlideCount> SlideTurns(const BoundMarker& marker, const ModelPose& pose) {
+  std::array<double, kSlideCount> turns{};
+  if (marker.joint != J::kHips) {
+    const Vec3 own = TurnOf(marker.joint, LocalRotation(marker.joint, pose)).value;
+    for (std::size_t i = 0; i < 3; ++i) turns[i] = own[static_cast<int>(i)];
+  }
+  if (marker.child != J::kHips) {
+    const Vec3 next = TurnOf(marker.child, LocalRotation(marker.child, pose)).value;
+    for (std::size_t i = 0; i < 3; ++i) turns[3 + i] = next[static_cast<int>(i)];
+  }
+  return turns;
+}
 
 CarriedMarker Carry(const BoundMarker& marker, const ModelPose& pose) {
   CarriedMarker placed;
@@ -73,6 +110,13 @@ CarriedMarker Carry(const BoundMarker& marker, const ModelPose& pose) {
                          : origin + pose.Rotation(Parent(marker.joint)) * marker.offset_ls;
   placed.point_ws =
       (1.0 - parent - child) * placed.own_ws + parent * placed.parent_ws + child * placed.child_ws;
+  if (marker.slides) {
+    const std::array<double, kSlideCount> turns = SlideTurns(marker, pose);
+    Vec3 slid{0.0};
+    for (std::size_t i = 0; i < kSlideCount; ++i) slid += turns[i] * marker.slide[i];
+    placed.slid_ws = rotation * slid;
+    placed.point_ws += placed.slid_ws;
+  }
   return placed;
 }
 
@@ -81,7 +125,7 @@ Vec3 MarkerPosition(const BoundMarker& marker, const ModelPose& pose) {
 }
 
 std::span<const std::uint8_t> Chain(const BoundMarker& marker) {
-  return Chain(marker.Share(SkinShare::kWithChild) != 0.0 ? marker.child : marker.joint);
+  return Chain(FollowsChild(marker) ? marker.child : marker.joint);
 }
 
 void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, const ModelPose& pose,
@@ -92,7 +136,23 @@ void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, cons
   const double twist = marker.Share(SkinShare::kOffTwist);
   const Vec3& origin = pose.Position(marker.joint);
   const Vec3 own_arm = placed.own_ws - origin;
-  const Vec3 moved = (1.0 - parent - child) * own_arm + child * (placed.child_ws - origin);
+  const Vec3 moved =
+      (1.0 - parent - child) * own_arm + child * (placed.child_ws - origin) + placed.slid_ws;
+  const bool follows_child = FollowsChild(marker);
+  Mat3 own_slide{0.0};  // d(slid_ws) / d(turn on the right of the own joint)
+  Mat3 child_slide{0.0};
+  if (marker.slides) {
+    const Mat3 frame = glm::mat3_cast(pose.Rotation(marker.joint));
+    const auto& d = marker.slide;
+    if (marker.joint != J::kHips) {
+      own_slide = frame * Mat3{d[0], d[1], d[2]} *
+                  TurnOf(marker.joint, LocalRotation(marker.joint, pose)).gradient;
+    }
+    if (follows_child) {
+      child_slide = frame * Mat3{d[3], d[4], d[5]} *
+                    TurnOf(marker.child, LocalRotation(marker.child, pose)).gradient;
+    }
+  }
   Vec3 slip{0.0};  // per unit of twist
   Vec3 twist_gradient{0.0};
   if (twist != 0.0 && placed.bone_ws != Vec3{0.0}) {
@@ -107,6 +167,7 @@ void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, cons
       column_ws[i] = axis;
     } else if (dof.joint == marker.joint) {
       column_ws[i] = glm::cross(axis, moved);
+      if (marker.slides) column_ws[i] += own_slide * RightTurn(dof, pose, axis);
       if (twist == 0.0) continue;
       // A ball's step turns the joint's own axes; a hinge's axial angle is the twist itself.
       const double rate = dof.kind == DofKind::kBall ? twist_gradient[dof.axis]
@@ -114,8 +175,9 @@ void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, cons
                               ? glm::dot(twist_gradient, LimbBone(marker.joint))
                               : 0.0;
       column_ws[i] += rate * slip;
-    } else if (child != 0.0 && dof.joint == marker.child) {
+    } else if (follows_child && dof.joint == marker.child) {
       column_ws[i] = child * glm::cross(axis, placed.child_ws - pose.Position(marker.child));
+      if (marker.slides) column_ws[i] += child_slide * RightTurn(dof, pose, axis);
     } else {
       column_ws[i] = glm::cross(axis, placed.point_ws - pose.Position(dof.joint));
     }

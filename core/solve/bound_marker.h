@@ -21,6 +21,20 @@ enum class SkinShare : std::uint8_t {
 inline constexpr std::size_t kSkinShareCount = 3;
 using SkinShares = std::array<double, kSkinShareCount>;
 
+/// How skin slides over its bone as joints turn, metres per radian in the bone's frame (soft tissue
+/// artefact as a linear function of the joint angles: Camomilla et al., J. Biomech. 46, 2013):
+/// first the three axes of the marker's own joint, then those of its child.
+inline constexpr std::size_t kSlideCount = 6;
+using SkinSlides = std::array<Vec3, kSlideCount>;
+
+/// The turn of a joint from the neutral posture as slides see it: its rotation vector for turns up
+/// to a right angle (2 sin(a/2)), going back to zero at half a turn, so that it has no jump.
+struct JointTurn {
+  Vec3 value{0.0};
+  Mat3 gradient{0.0};  // d value / d delta of q exp(delta)
+};
+JointTurn TurnOf(HumanoidJoint joint, const Quat& rotation_ls);
+
 /// A marker's place on a performer's skeleton.
 struct BoundMarker {
   std::size_t label = 0;                       // index into the frames' points
@@ -28,6 +42,8 @@ struct BoundMarker {
   Vec3 offset_ls{0.0};                         // from the joint, canonical pose, metres
   HumanoidJoint child = HumanoidJoint::kHips;  // of `joint`; unused while its share is zero
   SkinShares share{};
+  SkinSlides slide{};
+  bool slides = false;  // any of `slide` is not zero
 
   double Share(SkinShare which) const { return share[static_cast<std::size_t>(which)]; }
 };
@@ -41,9 +57,14 @@ struct CarriedMarker {
   Vec3 child_ws{0.0};   // as the child's bone would; own_ws without a child
   Vec3 bone_ws{0.0};    // direction of its limb bone; zero elsewhere
   double twist = 0.0;   // sine of the bone's twist; zero outside limbs
+  Vec3 slid_ws{0.0};    // how far it slid, a part of point_ws
 };
 
 CarriedMarker Carry(const BoundMarker& marker, const ModelPose& pose);
+
+/// The six turns that a marker's slides are per radian of. Zero where there is no such joint: the
+/// hips have no turn of their own, and not every marker has a child.
+std::array<double, kSlideCount> SlideTurns(const BoundMarker& marker, const ModelPose& pose);
 
 /// Position of a marker on a posed skeleton, world space.
 Vec3 MarkerPosition(const BoundMarker& marker, const ModelPose& pose);

@@ -367,8 +367,10 @@ MarkerModel ModelOf(const Bundle& bundle) {
   model.skeleton = SkeletonOf(bundle.scale, bundle.lengths);
   model.markers.reserve(bundle.markers.size());
   for (const FittedMarker& marker : bundle.markers) {
-    model.markers.push_back(
-        {marker.label, marker.joint, OffsetOf(bundle, marker), marker.child, marker.share});
+    const bool slides = std::any_of(marker.slide.begin(), marker.slide.end(),
+                                    [](const Vec3& slide) { return slide != Vec3{0.0}; });
+    model.markers.push_back({marker.label, marker.joint, OffsetOf(bundle, marker), marker.child,
+                             marker.share, marker.slide, slides});
   }
   return model;
 }

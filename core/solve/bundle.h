@@ -22,6 +22,7 @@ struct FittedMarker {
   HumanoidJoint child = HumanoidJoint::kHips;  // whose bone may draw its skin along; hips: none
   SkinShares share{};                          // found so far
   SkinShares share_sigma{};                    // scale of their prior (Cauchy); 0: held at zero
+  SkinSlides slide{};                          // found so far (FitSlides)
 };
 
 /// Unknowns of the global fit: lengths and marker places shared by all frames, one posture each.

@@ -14,6 +14,7 @@ constexpr Vec3 BallSigmaDegrees(J joint) {
   switch (joint) {
     case J::kSpine:
     case J::kChest:
+      return {20.0, 12.0, 12.0};  // x: bending forward, what the lower back does most
     case J::kUpperChest:
       return {12.0, 12.0, 12.0};
     case J::kNeck:

@@ -12,6 +12,7 @@
 #include "core/body/body.h"
 #include "core/solve/bundle.h"
 #include "core/solve/skin_prior.h"
+#include "core/solve/skin_slide.h"
 
 namespace ego {
 namespace {
@@ -158,6 +159,26 @@ std::vector<std::size_t> DiverseSubset(const std::vector<Posture>& postures, std
   return chosen;
 }
 
+/// Postures and slides by turns. All candidate frames are used, not only those of the bundle:
+/// a regression on many frames learns less that is not there.
+void LearnSlides(const MarkerTake& take, const std::vector<std::size_t>& solved,
+                 std::vector<Posture> postures, Bundle& bundle) {
+  constexpr int kRounds = 4;
+  PoseSolverOptions options;
+  options.step_per_frame = 0.0;
+  std::vector<MarkerFrame> frames;
+  for (const std::size_t f : solved) frames.push_back(take.Frame(f));
+  for (int round = 0; round < kRounds; ++round) {
+    const PoseSolver solver(ModelOf(bundle), options);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      PoseSolver::State state{PoseFromPosture(postures[i]), true};
+      solver.Solve(frames[i], state);
+      postures[i] = PostureFromPose(state.pose);
+    }
+    FitSlides(frames, postures, bundle);
+  }
+}
+
 double MeanResidual(const Bundle& bundle) {
   const MarkerModel model = ModelOf(bundle);
   double sum = 0.0;
@@ -269,6 +290,7 @@ Result<SkeletonFit> FitSkeleton(const MarkerTake& take, const MarkerSet& set,
     AdjustBundle(bundle, stage);
     Rescale(bundle);
   }
+  LearnSlides(take, solved, std::move(postures), bundle);
   fit.model = ModelOf(bundle);
   fit.scale = bundle.scale;
   fit.mean_residual = MeanResidual(bundle);

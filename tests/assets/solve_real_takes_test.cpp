@@ -19,8 +19,10 @@ using J = HumanoidJoint;
 
 struct Bar {
   const char* file;
-  double mean_mm;     // largest mean residual over visible markers
-  double tail = 2.5;  // p95 at most this many times the mean
+  double mean_mm;  // largest mean residual over visible markers
+  // Where the mean is low for what the take shows, p95 may be this, mm, though it is above 2.5
+  // means.
+  double tail_mm = 0.0;
 };
 std::ostream& operator<<(std::ostream& out, const Bar& bar) { return out << bar.file; }
 
@@ -63,7 +65,7 @@ TEST_P(RealTakeSolve, SolvesWithinTheBars) {
   const SolveReport& report = solved->report;
 
   EXPECT_LT(report.mean_residual_mm, GetParam().mean_mm) << report.marker_set;
-  EXPECT_LT(report.p95_residual_mm, GetParam().tail * report.mean_residual_mm);
+  EXPECT_LT(report.p95_residual_mm, std::max(2.5 * report.mean_residual_mm, GetParam().tail_mm));
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const auto limb = LimbOf(static_cast<LimbSegment>(s));
     if (!IsLeft(limb)) continue;
@@ -92,13 +94,13 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Bar{"cmu_02_05.c3d", 7.0}, Bar{"cmu_135_02_karate.c3d", 7.0},
                     Bar{"hdm05_mm_01-02_03.c3d", 7.0}, Bar{"btk_mocap36_optitrack.c3d", 8.0},
                     Bar{"gatech_nick_freeform.c3d", 8.0},
-                    Bar{"millard_stoop1_t169_f620f800.c3d", 7.0, 2.8},
+                    Bar{"millard_stoop1_t169_f620f800.c3d", 7.0, 2.9},
                     Bar{"millard_neu_t169_f250f350.c3d", 1.0}, Bar{"pycgm_robo_static.c3d", 1.0},
-                    Bar{"rajagopal_motion_capture_walk.trc", 7.0, 2.65},
-                    Bar{"rajagopal_static_walk_1.trc", 1.0, 2.6},
-                    Bar{"c3dorg_mac_jump2.c3d", 7.0, 2.65}, Bar{"ezc3d_qualisys_walk.c3d", 7.0},
+                    Bar{"rajagopal_motion_capture_walk.trc", 7.0, 5.3},
+                    Bar{"rajagopal_static_walk_1.trc", 1.0, 1.4},
+                    Bar{"c3dorg_mac_jump2.c3d", 7.0, 5.8}, Bar{"ezc3d_qualisys_walk.c3d", 7.0},
                     Bar{"c3dorg_nexgen_test1.c3d", 7.0}, Bar{"biomechzoo_HC030A_straight.c3d", 7.0},
-                    Bar{"gatech_sehoon_squat.c3d", 8.0, 2.65}),
+                    Bar{"gatech_sehoon_squat.c3d", 8.0, 4.4}),
     [](const auto& each) {
       std::string name = each.param.file;
       for (char& c : name) {

@@ -10,6 +10,7 @@
 
 #include "core/body/body.h"
 #include "core/solve/posture_cost.h"
+#include "core/solve/skin_slide.h"
 
 namespace ego {
 namespace {
@@ -130,7 +131,8 @@ TEST(PostureCost, GradientIsTheFiniteDifferenceOfTheCost) {
   }
 }
 
-/// A marker on every joint whose skin follows its neighbours and slips on the bone's twist.
+/// Markers on every joint whose skin follows its neighbours and slips on the bone's twist, slides
+/// besides, and slides alone.
 std::vector<BoundMarker> SlidingMarkers() {
   std::vector<BoundMarker> markers;
   for (std::size_t j = 0; j < kJointCount; ++j) {
@@ -140,6 +142,14 @@ std::vector<BoundMarker> SlidingMarkers() {
       if (kParent[c] == joint) marker.child = static_cast<J>(c);
     }
     marker.share = {j == 0 ? 0.0 : 0.15, marker.child == J::kHips ? 0.0 : 0.2, 0.3};
+    markers.push_back(marker);
+    marker.slides = true;
+    for (std::size_t i = 0; i < kSlideCount; ++i) {
+      const double d = 0.01 * static_cast<double>(i);
+      marker.slide[i] = {0.02 - d, 0.01, d - 0.03};
+    }
+    markers.push_back(marker);
+    marker.share = {};  // what slides needs no share to follow its child
     markers.push_back(marker);
   }
   return markers;
@@ -188,6 +198,69 @@ TEST(BoundMarker, JacobiansAreTheFiniteDifferencesOfThePosition) {
             << Name(marker.joint) << " share " << i;
       }
     }
+  }
+}
+
+TEST(JointTurn, IsZeroAtNeutralAndHasNoJumpAtHalfATurn) {
+  const Quat neutral = NeutralPosture().rotation_ls[Index(J::kLeftUpperArm)];
+  EXPECT_LT(glm::length(TurnOf(J::kLeftUpperArm, neutral).value), 1e-12);
+  const Vec3 axis = glm::normalize(Vec3{1.0, 2.0, -0.5});
+  for (const double angle : {0.1, 0.8, 1.5}) {
+    const Vec3 turn = TurnOf(J::kLeftUpperArm, neutral * glm::angleAxis(angle, axis)).value;
+    EXPECT_LT(glm::distance(turn, 2.0 * std::sin(0.5 * angle) * axis), 0.02 * angle);
+    const Vec3 same = TurnOf(J::kLeftUpperArm, -(neutral * glm::angleAxis(angle, axis))).value;
+    EXPECT_LT(glm::distance(turn, same), 1e-12);
+  }
+  const Vec3 before = TurnOf(J::kLeftUpperArm, neutral * glm::angleAxis(kPi - 1e-3, axis)).value;
+  const Vec3 after = TurnOf(J::kLeftUpperArm, neutral * glm::angleAxis(kPi + 1e-3, axis)).value;
+  EXPECT_LT(glm::distance(before, after), 0.02);
+}
+
+TEST(FitSlides, LearnsWhatSlidesAndLeavesTheRestRigid) {
+  // Postures are known; every other marker slides 25 mm per radian, the rest not at all.
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.001);
+  Bundle truth;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    FittedMarker marker;
+    marker.label = j;
+    marker.joint = static_cast<J>(j);
+    marker.template_offset = {0.05, 0.02, 0.04};
+    marker.child = BoneEnd(marker.joint) == marker.joint ? J::kHips : BoneEnd(marker.joint);
+    marker.share_sigma = {0.05, 0.05, 0.05};
+    truth.markers.push_back(marker);
+  }
+  Bundle found = truth;
+  for (std::size_t m = 0; m < truth.markers.size(); m += 2) {
+    truth.markers[m].slide[0] = {0.0, 0.025, 0.0};
+    truth.markers[m].slide[4] = {0.015, 0.0, -0.020};
+  }
+  const MarkerModel model = ModelOf(truth);
+  std::vector<Posture> postures;
+  std::vector<Seen> seen;
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    postures.push_back(RandomPosture(seed, 0.3));
+    const ModelPose pose = Placed(model.skeleton, postures.back());
+    Seen instant;
+    for (const BoundMarker& marker : model.markers) {
+      instant.position.push_back(MarkerPosition(marker, pose) +
+                                 Vec3{noise(random), noise(random), noise(random)});
+      instant.visible.push_back(1);
+    }
+    // A ghost in every tenth frame.
+    if (seed % 10 == 0) instant.position[seed / 10] += Vec3{0.5, 1.0, -0.3};
+    seen.push_back(instant);
+  }
+  std::vector<MarkerFrame> frames;
+  for (const Seen& instant : seen) frames.push_back(instant.Frame());
+  FitSlides(frames, postures, found);
+  const MarkerModel learnt = ModelOf(found);
+  const ModelPose pose = Placed(model.skeleton, RandomPosture(1000, 0.3));  // one not learnt from
+  for (std::size_t m = 0; m < model.markers.size(); ++m) {
+    EXPECT_LT(glm::distance(MarkerPosition(learnt.markers[m], pose),
+                            MarkerPosition(model.markers[m], pose)),
+              0.002)
+        << Name(model.markers[m].joint);
   }
 }
 
