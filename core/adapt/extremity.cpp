@@ -27,7 +27,8 @@ Quat AlignExtremity(const AdaptState& state, Limb limb, const Quat& rotation_ws)
   const Quat turn =
       SmallestRotation(rotation_ws * normal_ms, sum / length, rotation_ws * Vec3{1.0, 0.0, 0.0});
   // Opposed requests shorten the sum; below a third of full agreement they count in part.
-  return glm::normalize(Slerp(kIdentity, turn, Smoothstep(3.0 * length)) * rotation_ws);
+  const double part = Smoothstep(3.0 * length);
+  return glm::normalize((part < 1.0 ? Slerp(kIdentity, turn, part) : turn) * rotation_ws);
 }
 
 }  // namespace ego

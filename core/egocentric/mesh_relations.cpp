@@ -28,16 +28,21 @@ struct LaneTotal {
 template <class V>
 EGO_LANES_INLINE V Importances(const MeshQuery& query, const ImportanceTotal& total, const V& along,
                                const V& reach, const V& gap, LaneTotal<V>& lanes) {
+  // Cosine over saturated gap as one quotient.
   const V softness = Splat<V>(query.softness);
-  const V denominator = reach + softness;
+  const V length = reach + softness;
+  const LaneMask<V> is_long = length > Splat<V>(1e-12);
+  const V one = Splat<V>(1.0);
+  const V divisor = Select<V>(is_long, length, one);
   const V cosine =
-      Select<V>(denominator > Splat<V>(1e-12), (along + softness) / denominator, Splat<V>(1.0));
-  const V orthogonality = Max<V>(cosine, Splat<V>(query.floor));
-  const V importance = orthogonality / Max<V>(gap, Splat<V>(total.epsilon));
+      Select<V>(is_long, Max<V>(along + softness, Splat<V>(query.floor) * length), one);
+  const V importance = cosine / (divisor * Max<V>(gap, Splat<V>(total.epsilon)));
   lanes.sum += importance;
   lanes.max = Max<V>(lanes.max, importance);
   lanes.priority =
-      Max<V>(lanes.priority, orthogonality / Max<V>(gap, Splat<V>(total.gamma_epsilon)));
+      Max<V>(lanes.priority, total.gamma_epsilon == total.epsilon
+                                 ? importance
+                                 : cosine / (divisor * Max<V>(gap, Splat<V>(total.gamma_epsilon))));
   return importance;
 }
 

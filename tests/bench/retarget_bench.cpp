@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/baselines/retarget_method.h"
 #include "tests/support/bodies.h"
@@ -43,6 +46,36 @@ void OneAvatar(benchmark::State& state, const std::string& name) {
   }
 }
 
+/// A crowd: one normalisation, twelve avatars of all shapes. Items are avatar frames.
+void Crowd(benchmark::State& state, const std::string& name) {
+  constexpr std::size_t kAvatars = 12;
+  const Body performer = TemplateBody();
+  std::vector<Body> avatars = StudyBodies();
+  avatars.push_back(PoorRig());
+  const auto method = MakeRetargetMethod(name);
+  std::array<Pose, kAvatars> out;
+  std::size_t frame = 0;
+  for (auto _ : state) {
+    method->SetPerformerPose(performer, Frames()[frame++ % Frames().size()]);
+    for (std::size_t k = 0; k < kAvatars; ++k) method->Adapt(avatars[k % avatars.size()], out[k]);
+    benchmark::DoNotOptimize(out);
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(kAvatars) * state.iterations());
+}
+
+/// Forward kinematics alone: what the others are multiples of, on any machine.
+void PlainForwardKinematics(benchmark::State& state) {
+  const Body performer = TemplateBody();
+  std::size_t frame = 0;
+  for (auto _ : state) {
+    const ModelPose posed =
+        ForwardKinematics(performer.skeleton, Frames()[frame++ % Frames().size()]);
+    benchmark::DoNotOptimize(posed);
+  }
+}
+
+BENCHMARK(PlainForwardKinematics)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Crowd, mdb, "mdb")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Normalise, mdb, "mdb")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Normalise, paper, "paper")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(OneAvatar, mdb, "mdb")->Unit(benchmark::kMicrosecond);
