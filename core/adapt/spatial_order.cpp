@@ -23,9 +23,9 @@ LimbPosture EnsureSpatialOrder(const AdaptState& state, Limb limb, const LimbPos
   const LimbChain& chain = state.chain[Index(limb)];
   const double ramp = state.scale * state.settings.plane_ramp;
   LimbPosture ordered = posture;
+  LimbPlacement placed = Place(chain, ordered);
   for (std::size_t part = 0; part < 2; ++part) {
     const auto segment = static_cast<LimbSegment>(2 * Index(limb) + part);
-    LimbPlacement placed = Place(chain, ordered);
     PosedCapsule own = PlaceSegment(state, segment, placed);
     for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
       const LimbSegment other = OtherSegment(limb, slot);

@@ -57,21 +57,27 @@ inline constexpr double kLeastCosine = 0.01;
 /// Absolute cosines |cos alpha_i| of a path's bones to a displacement (equation 4).
 using PathCosines = std::array<float, kMaxPathLength>;
 
-/// Cosines of a unit `direction` to the bones. A bone without length has the cosine 0.
-/// `bone_direction` are unit vectors in the same space.
-inline void CosinesAlong(const KinematicPath& path, const Vec3& direction,
-                         const std::array<Vec3, kBoneCount>& bone_direction, PathCosines& cosine) {
-  for (std::size_t i = 0; i < path.length; ++i) {
-    cosine[i] = static_cast<float>(std::abs(glm::dot(direction, bone_direction[path.bone[i]])));
-  }
-}
-
 /// tau = sum of |s_i| |cos alpha_i| (equation 5).
 inline double PathFactor(const KinematicPath& path, const PathCosines& cosine,
                          const std::array<double, kBoneCount>& bone_length) {
   double tau = 0.0;
   for (std::size_t i = 0; i < path.length; ++i) {
     tau += bone_length[path.bone[i]] * (kLeastCosine + static_cast<double>(cosine[i]));
+  }
+  return tau;
+}
+
+/// Fills the cosines of a unit `direction` to the bones and returns tau of the same body, as
+/// `PathFactor` does. A bone without length has the cosine 0. `bone_direction` are unit vectors in
+/// the same space.
+inline double MeasurePath(const KinematicPath& path, const Vec3& direction,
+                          const std::array<Vec3, kBoneCount>& bone_direction,
+                          const std::array<double, kBoneCount>& bone_length, PathCosines& cosine) {
+  double tau = 0.0;
+  for (std::size_t i = 0; i < path.length; ++i) {
+    const std::size_t bone = path.bone[i];
+    cosine[i] = static_cast<float>(std::abs(glm::dot(direction, bone_direction[bone])));
+    tau += bone_length[bone] * (kLeastCosine + static_cast<double>(cosine[i]));
   }
   return tau;
 }

@@ -28,8 +28,8 @@ struct Context {
 void NormalizeDistance(const Context& context, const KinematicPath& path, const Vec3& direction,
                        double reach, double filled, NormalizedDistance& distance) {
   distance.inside = filled > 0.0 ? std::min(1.0, reach / filled) : 1.0;
-  CosinesAlong(path, direction, context.posed.bone_direction, distance.cosine);
-  const double tau = PathFactor(path, distance.cosine, context.constants.bone_length);
+  const double tau = MeasurePath(path, direction, context.posed.bone_direction,
+                                 context.constants.bone_length, distance.cosine);
   distance.gap = std::max(0.0, reach - filled) / std::max(tau, 1e-9 * context.body.height);
 }
 
@@ -47,8 +47,8 @@ void RelateToCapsule(const Context& context, const PosedCapsule& capsule, Humano
   relation.axial = ClosestOnSegment(p, capsule.start, capsule.end);
   const Vec3 v = p - capsule.At(relation.axial);
   const double reach = glm::length(v);
-  const Vec3 direction = reach > 1e-12 ? v / reach : capsule.frame[1];
-  relation.direction_ls = glm::transpose(capsule.frame) * direction;
+  const Vec3 direction = reach > 1e-12 ? (1.0 / reach) * v : capsule.frame[1];
+  relation.direction_ls = direction * capsule.frame;
   NormalizeDistance(context, PathBetween(parent, j), direction, reach, capsule.radius + own,
                     relation.distance);
   // The displacement from a capsule is always along its normal.
