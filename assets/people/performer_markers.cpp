@@ -35,12 +35,10 @@ std::vector<Marker> Table(const Person& person) {
 
   // Head and trunk.
   const Vec3 head{0.0, sample(S::kForehead).y, at(J::kHead).z};
-  add("HeadTop", head, {0.0, 1.0, 0.05});
-  add("ClavicleNotch", {0.0, sample(S::kCollarNotch).y, at(J::kUpperChest).z}, {0.0, 0.0, 1.0});
-  add("Sternum", {0.0, sample(S::kSternumBase).y, at(J::kChest).z}, {0.0, 0.0, 1.0});
+  add("CLAV", {0.0, sample(S::kCollarNotch).y, at(J::kUpperChest).z}, {0.0, 0.0, 1.0});
+  add("STRN", {0.0, sample(S::kSternumBase).y, at(J::kChest).z}, {0.0, 0.0, 1.0});
   add("C7", {0.0, sample(S::kNapeBase).y - 0.02, at(J::kNeck).z}, {0.0, 0.0, -1.0});
   add("T10", {0.0, sample(S::kMidBack).y, at(J::kChest).z}, {0.0, 0.0, -1.0});
-  add("Sacrum", {0.0, sample(S::kSacrum).y + 0.03, at(J::kHips).z}, {0.0, 0.0, -1.0});
   for (const double out : {1.0, -1.0}) {
     const std::string l = out > 0.0 ? "L" : "R";
     const auto side = [&](J left) { return at(out > 0.0 ? left : Mirror(left)); };
@@ -51,22 +49,23 @@ std::vector<Marker> Table(const Person& person) {
     const Vec3 knee = side(J::kLeftLowerLeg);
     const Vec3 ankle = side(J::kLeftFoot);
     const Vec3 toes = side(J::kLeftToes);
-    add(l + "HeadFront", head, {0.55 * out, 0.15, 1.0});
-    add(l + "HeadBack", head, {0.55 * out, 0.15, -1.0});
-    add(l + "Shoulder", shoulder, {0.0, 1.0, 0.0});
-    add(l + "UpperArm", glm::mix(shoulder, elbow, 0.55), {0.0, 0.8, -0.6});
-    add(l + "ElbowOut", elbow, {0.0, 0.1, -1.0});
-    add(l + "Forearm", glm::mix(elbow, wrist, 0.5), {0.0, 1.0, -0.2});
-    add(l + "WristIn", wrist - Vec3{0.012 * out, 0.0, 0.0}, {0.0, 0.3, 1.0});
-    add(l + "WristOut", wrist - Vec3{0.012 * out, 0.0, 0.0}, {0.0, 0.3, -1.0});
-    add(l + "Hand", wrist + Vec3{0.075 * out, 0.0, 0.0}, {0.0, 1.0, 0.0});
-    add(l + "Asis", {0.0, sample(S::kPubis).y + 0.11, at(J::kHips).z}, {0.75 * out, 0.0, 1.0});
-    add(l + "Thigh", glm::mix(hip, knee, 0.55), {out, 0.0, 0.35});
-    add(l + "Knee", knee, {out, 0.0, 0.1});
-    add(l + "Shin", glm::mix(knee, ankle, 0.45), {0.35 * out, 0.0, 1.0});
-    add(l + "Ankle", ankle, {out, 0.0, 0.0});
-    add(l + "Heel", {ankle.x, 0.5 * ankle.y, ankle.z}, {0.0, 0.0, -1.0});
-    add(l + "Toe", {toes.x, 0.03, toes.z + 0.01}, {0.25 * out, 1.0, 0.3});
+    add(l + "FHD", head, {0.55 * out, 0.15, 1.0});
+    add(l + "BHD", head, {0.55 * out, 0.15, -1.0});
+    add(l + "SHO", shoulder, {0.0, 1.0, 0.0});
+    add(l + "UPA", glm::mix(shoulder, elbow, 0.55), {0.0, 0.8, -0.6});
+    add(l + "ELB", elbow, {0.0, 0.9, -0.7});
+    add(l + "IEL", elbow, {0.0, -0.9, -0.7});
+    add(l + "WRA", wrist - Vec3{0.012 * out, 0.0, 0.0}, {0.0, 0.3, 1.0});
+    add(l + "WRB", wrist - Vec3{0.012 * out, 0.0, 0.0}, {0.0, 0.3, -1.0});
+    add(l + "FIN", wrist + Vec3{0.075 * out, 0.0, 0.0}, {0.0, 1.0, 0.0});
+    add(l + "ASI", {0.0, sample(S::kPubis).y + 0.11, at(J::kHips).z}, {0.75 * out, 0.0, 1.0});
+    add(l + "PSI", {0.0, sample(S::kSacrum).y + 0.03, at(J::kHips).z}, {0.4 * out, 0.0, -1.0});
+    add(l + "THI", glm::mix(hip, knee, 0.55), {out, 0.0, 0.35});
+    add(l + "KNE", knee, {out, 0.0, 0.1});
+    add(l + "SHN", glm::mix(knee, ankle, 0.45), {0.35 * out, 0.0, 1.0});
+    add(l + "ANK", ankle, {out, 0.0, 0.0});
+    add(l + "HEE", {ankle.x, 0.5 * ankle.y, ankle.z}, {0.0, 0.0, -1.0});
+    add(l + "TOE", {toes.x, 0.03, toes.z + 0.01}, {0.25 * out, 1.0, 0.3});
   }
   return markers;
 }

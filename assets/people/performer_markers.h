@@ -8,8 +8,9 @@
 
 namespace ego {
 
-/// The 38 markers that a scripted performer wears, moving with the skin: always visible, without
-/// noise. Same frames as the motion.
+/// The markers that a scripted performer wears, moving with the skin: always visible, without
+/// noise. Labels and places are those of the studio's own set (assets/data/marker_sets/
+/// studio_38.json). Same frames as the motion.
 std::shared_ptr<const MarkerTake> MarkersOn(const Person& person, const CapturedMotion& motion);
 
 }  // namespace ego

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/markers/marker_set_file.h"
+#include "assets/people/motions.h"
 #include "core/solve/performer_surface.h"
 #include "core/solve/solve_take.h"
 #include "core/solve/standing.h"
@@ -332,6 +333,21 @@ TEST(SolveTake, StopsWhenTold) {
       SolveTake(made.take, SetNamed("CMU 41"), {}, [](double, std::string_view) { return false; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error(), "cancelled");
+}
+
+TEST(SolveTake, SolvesTheScriptedPerformersMarkersAsTheStudiosOwnSet) {
+  // Markers on modelled skin, whose bones are known: the studio's set must name and place them all.
+  const Result<CapturedMotion> motion = ScriptedMotion(ScriptedMotionNames().front());
+  ASSERT_TRUE(motion) << motion.error();
+  const Result<MarkerSet> set = ChooseMarkerSet(motion->markers->labels);
+  ASSERT_TRUE(set) << set.error();
+  EXPECT_EQ(set->name, "Studio 38");
+  EXPECT_EQ(motion->markers->labels.size(), 38u);
+  const Result<SkeletonFit> fit = FitSkeleton(*motion->markers, *set);
+  ASSERT_TRUE(fit) << fit.error();
+  EXPECT_EQ(fit->model.markers.size(), 38u);
+  EXPECT_LT(fit->mean_residual, 0.004);
+  EXPECT_NEAR(fit->scale * 1.78, motion->performer.height, 0.06 * motion->performer.height);
 }
 
 TEST(Standing, FindsTheFloorAndLevelsTheSoles) {
