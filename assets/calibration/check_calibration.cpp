@@ -7,10 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "assets/calibration/crude_mesh.h"
-#include "assets/calibration/proposal_draft.h"
-#include "assets/calibration/skin_probe.h"
-#include "core/model/avatar_body.h"
+#include "assets/calibration/check_calibration_impl.h"
 
 namespace ego {
 namespace {
@@ -29,15 +26,6 @@ constexpr double kTooThin = 0.65;
 /// A trunk or head point whose skin follows the right joints by less than this is off the body.
 constexpr double kLeastShare = 0.35;
 constexpr double kDoubtfulJoint = 0.5;
-
-bool Known(const Character& character, const CalibrationPoint& point) {
-  return point.state != PickState::kMissing && IsOn(character, point.place);
-}
-
-std::string Lower(std::string text) {
-  if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] + 32);
-  return text;
-}
 
 std::string Centimetres(double metres) {
   char text[32];
@@ -99,7 +87,8 @@ bool MayFollow(PointId id, J joint) {
     case J::kLeftUpperLeg:
     case J::kRightUpperLeg:
       return sample == S::kPubis || sample == S::kSacrum || sample == S::kLeftHipSide ||
-             sample == S::kRightHipSide;
+             sample == S::kRightHipSide || sample == S::kLeftWaistSide ||
+             sample == S::kRightWaistSide;
     default:
       return false;
   }
@@ -125,81 +114,36 @@ bool NeedsAPerson(const std::vector<CalibrationFinding>& findings) {
                      [](const CalibrationFinding& f) { return f.severity != Severity::kNote; });
 }
 
-struct CalibrationChecker::Impl {
-  Impl(const Character& the_character, const SurfaceMesh& the_surface)
-      : character(the_character),
-        surface(the_surface),
-        probe(the_character),
-        draft(the_character, probe),
-        skin(SkinMatrices(the_character, the_character.rig.canonical_global)) {
-    for (std::size_t s = 0; s < kSegmentCount; ++s) {
-      MeasureSegment(static_cast<LimbSegment>(s));
+void CalibrationChecker::Impl::MeasureSegment(LimbSegment segment) {
+  std::vector<double> radii;
+  for (const double t : {0.3, 0.4, 0.5, 0.6, 0.7}) {
+    const auto ring = surface.Ring(segment, t);
+    if (ring && ring->covered > 0.9) radii.push_back(ring->radius);
+  }
+  if (radii.size() < 3) return;
+  std::sort(radii.begin(), radii.end());
+  thickness[Index(segment)] = radii[radii.size() / 2];
+}
+
+CalibrationFinding& CalibrationChecker::Impl::Add(Look& look, Severity severity, FindingKind kind,
+                                                  std::string sentence,
+                                                  std::vector<PointId> points) const {
+  CalibrationFinding& finding = look.findings.emplace_back();
+  finding.severity = severity;
+  finding.kind = kind;
+  finding.sentence = std::move(sentence);
+  finding.points = std::move(points);
+  if (!finding.points.empty()) {
+    const PointId id = finding.points.front();
+    if (id.kind == PointId::Kind::kSample) finding.position_ms = look.places[id.owner];
+    const CalibrationPoint* point = Find(look.calibration, id);
+    if (point != nullptr && Known(character, *point)) {
+      finding.place = point->place;
+      finding.position_ms = PositionOf(*point);
     }
   }
-
-  const Character& character;
-  const SurfaceMesh& surface;
-  SkinProbe probe;
-  ProposalDraft draft;  // for the measures of the body; its calibration is not used
-  std::vector<Mat4> skin;
-  /// The skin's mean distance from each bone by rings; 0 where it has no closed ones.
-  std::array<double, kSegmentCount> thickness{};
-
-  /// One check at work.
-  struct Look {
-    const AvatarCalibration& calibration;
-    SamplePlaces places;
-    std::vector<CalibrationFinding> findings;
-  };
-
-  double Height() const { return draft.template_body.height; }
-  Vec3 PositionOf(const CalibrationPoint& point) const {
-    return PosePoint(character, skin, point.place);
-  }
-
-  void MeasureSegment(LimbSegment segment) {
-    std::vector<double> radii;
-    for (const double t : {0.3, 0.4, 0.5, 0.6, 0.7}) {
-      const auto ring = surface.Ring(segment, t);
-      if (ring && ring->covered > 0.9) radii.push_back(ring->radius);
-    }
-    if (radii.size() < 3) return;
-    std::sort(radii.begin(), radii.end());
-    thickness[Index(segment)] = radii[radii.size() / 2];
-  }
-
-  CalibrationFinding& Add(Look& look, Severity severity, FindingKind kind, std::string sentence,
-                          std::vector<PointId> points) const {
-    CalibrationFinding& finding = look.findings.emplace_back();
-    finding.severity = severity;
-    finding.kind = kind;
-    finding.sentence = std::move(sentence);
-    finding.points = std::move(points);
-    if (!finding.points.empty()) {
-      const PointId id = finding.points.front();
-      if (id.kind == PointId::Kind::kSample) finding.position_ms = look.places[id.owner];
-      const CalibrationPoint* point = Find(look.calibration, id);
-      if (point != nullptr && Known(character, *point)) {
-        finding.place = point->place;
-        finding.position_ms = PositionOf(*point);
-      }
-    }
-    return finding;
-  }
-
-  void CheckPoints(Look& look) const;
-  void CheckPlace(Look& look, PointId id, const CalibrationPoint& point) const;
-  void CheckTriangles(Look& look) const;
-  void CheckCrossings(Look& look) const;
-  void CheckSymmetry(Look& look) const;
-  void CheckSegments(Look& look) const;
-  void CheckJoints(Look& look) const;
-  S WorstCorner(const SamplePlaces& places, const std::vector<std::size_t>& triangles,
-                std::size_t of) const;
-  Vec3 SegmentMiddle(LimbSegment segment) const {
-    return 0.5 * (probe.Joint(StartJoint(segment)) + probe.Joint(EndJoint(segment)));
-  }
-};
+  return finding;
+}
 
 void CalibrationChecker::Impl::CheckPoints(Look& look) const {
   for (const PointId id : PickOrder()) {
@@ -267,97 +211,6 @@ void CalibrationChecker::Impl::CheckPlace(Look& look, PointId id,
             " outside the skin below it, as on loose cloth.",
         {id});
     break;
-  }
-}
-
-S CalibrationChecker::Impl::WorstCorner(const SamplePlaces& places,
-                                        const std::vector<std::size_t>& triangles,
-                                        std::size_t of) const {
-  const SamplePlaces& usual = draft.template_body.surface.sample_ms;
-  S worst = SampleTriangles()[of][0];
-  std::pair<std::size_t, double> most{0, -1.0};
-  for (const S p : SampleTriangles()[of]) {
-    std::size_t count = 0;
-    for (const std::size_t t : triangles) {
-      const SampleTriangle& corners = SampleTriangles()[t];
-      count += static_cast<std::size_t>(std::count(corners.begin(), corners.end(), p));
-    }
-    const std::pair<std::size_t, double> here{count,
-                                              glm::distance(places[Index(p)], usual[Index(p)])};
-    if (here > most) {
-      most = here;
-      worst = p;
-    }
-  }
-  return worst;
-}
-
-void CalibrationChecker::Impl::CheckTriangles(Look& look) const {
-  const auto sound = Soundness(look.places, draft.template_body.surface.sample_ms);
-  std::vector<std::size_t> bad;
-  for (std::size_t t = 0; t < kTriangleCount; ++t) {
-    if (sound[t] <= 0.0) bad.push_back(t);
-  }
-  // One finding for each point that is at fault, with all of its triangles.
-  std::array<std::vector<std::size_t>, kSampleCount> flipped;
-  std::array<std::vector<std::size_t>, kSampleCount> flat;
-  for (const std::size_t t : bad) {
-    const S worst = WorstCorner(look.places, bad, t);
-    (sound[t] < 0.0 ? flipped : flat)[Index(worst)].push_back(t);
-  }
-  for (const bool is_flat : {false, true}) {
-    for (std::size_t i = 0; i < kSampleCount; ++i) {
-      const std::vector<std::size_t>& triangles = is_flat ? flat[i] : flipped[i];
-      if (triangles.empty()) continue;
-      const PointId id = PointId::Of(static_cast<S>(i));
-      const std::string count =
-          triangles.size() == 1 ? "A triangle of the crude mesh"
-                                : std::to_string(triangles.size()) + " triangles of the crude mesh";
-      const std::string fault =
-          is_flat
-              ? (triangles.size() == 1 ? " has" : " have") + std::string(" hardly any area at the ")
-              : (triangles.size() == 1 ? " faces" : " face") + std::string(" inward at the ");
-      CalibrationFinding& finding =
-          Add(look, is_flat ? Severity::kWarning : Severity::kError,
-              is_flat ? FindingKind::kDegenerateTriangle : FindingKind::kFlippedTriangle,
-              count + fault + Lower(Title(id)) + ".", {id});
-      finding.triangles = triangles;
-      for (const std::size_t t : triangles) {
-        for (const S p : SampleTriangles()[t]) {
-          if (std::find(finding.points.begin(), finding.points.end(), PointId::Of(p)) ==
-              finding.points.end()) {
-            finding.points.push_back(PointId::Of(p));
-          }
-        }
-      }
-    }
-  }
-}
-
-void CalibrationChecker::Impl::CheckCrossings(Look& look) const {
-  const auto crossing = CrossingTriangles(look.places);
-  if (crossing.empty()) return;
-  std::vector<std::size_t> all;
-  for (const auto& [a, b] : crossing) {
-    all.push_back(a);
-    all.push_back(b);
-  }
-  std::array<std::vector<std::size_t>, kSampleCount> by_point;
-  for (const auto& [a, b] : crossing) {
-    const S first = WorstCorner(look.places, all, a);
-    auto& triangles = by_point[Index(first)];
-    for (const std::size_t t : {a, b}) {
-      if (std::find(triangles.begin(), triangles.end(), t) == triangles.end()) {
-        triangles.push_back(t);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < kSampleCount; ++i) {
-    if (by_point[i].empty()) continue;
-    const PointId id = PointId::Of(static_cast<S>(i));
-    Add(look, Severity::kError, FindingKind::kSelfCrossing,
-        "The crude mesh cuts through itself at the " + Lower(Title(id)) + ".", {id})
-        .triangles = by_point[i];
   }
 }
 

@@ -57,11 +57,13 @@ void ReconcilePair(ProposalDraft& draft, CalibrationPoint& left, CalibrationPoin
     follow(left, right, r, left_region);
   } else if (right.confidence < kDoubtBelow && left.confidence > right.confidence + 0.15) {
     follow(right, left, l, right_region);
-  } else if (apart > 0.04 * height) {
+  } else {
+    // The farther apart, the less either is believed; only one of them need be wrong.
+    const double doubt = std::clamp((apart / height - 0.01) / 0.04, 0.0, 1.0);
     for (CalibrationPoint* point : {&left, &right}) {
-      point->confidence *= 0.6;
+      point->confidence *= 1.0 - 0.5 * doubt;
       if (point->confidence < kDoubtBelow) point->state = PickState::kDoubtful;
-      point->reason = "left and right differ";
+      if (doubt > 0.5) point->reason = "left and right differ";
     }
   }
 }
@@ -82,6 +84,12 @@ void ReconcileSides(ProposalDraft& draft) {
   ReconcilePair(draft, left_hand.palm, right_hand.palm, kLeft, kRight);
   ReconcilePair(draft, left_hand.back_of_hand, right_hand.back_of_hand, kLeft, kRight);
   ReconcilePair(draft, left_hand.fingertip, right_hand.fingertip, kLeft, kRight);
+  auto& [left_foot, right_foot] = draft.calibration.foot;
+  constexpr SkinRegion kLeftSole = SkinRegion::kLeftFoot;
+  constexpr SkinRegion kRightSole = SkinRegion::kRightFoot;
+  ReconcilePair(draft, left_foot.heel, right_foot.heel, kLeftSole, kRightSole);
+  ReconcilePair(draft, left_foot.ball, right_foot.ball, kLeftSole, kRightSole);
+  ReconcilePair(draft, left_foot.toe_tip, right_foot.toe_tip, kLeftSole, kRightSole);
 
   for (const LimbSegment left : {LimbSegment::kLeftUpperArm, LimbSegment::kLeftForearm,
                                  LimbSegment::kLeftThigh, LimbSegment::kLeftCalf}) {

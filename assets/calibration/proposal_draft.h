@@ -5,6 +5,7 @@
 #include <string>
 
 #include "assets/calibration/skin_probe.h"
+#include "assets/mesh/surface_mesh.h"
 #include "core/body/body.h"
 #include "core/model/avatar_calibration.h"
 
@@ -29,6 +30,12 @@ struct ProposalDraft {
   double hip_half_width = 0.0;
   double middle_x = 0.0;
 
+  /// The skin's connectivity, made when it is first asked for.
+  const SurfaceMesh& Surface() {
+    if (!surface_) surface_.emplace(probe.TheCharacter());
+    return *surface_;
+  }
+
   /// Layers closer to each other than this are one body.
   double Gap() const { return 0.06 * trunk_length; }
 
@@ -42,6 +49,9 @@ struct ProposalDraft {
   /// none, with little confidence.
   void PutNearest(CalibrationPoint& point, SkinRegion region, const Vec3& wanted,
                   std::string reason) const;
+
+ private:
+  std::optional<SurfaceMesh> surface_;
 };
 
 /// The steps of a proposal, in order. Each fills its part of the draft.
@@ -53,7 +63,13 @@ void ProposeFeet(ProposalDraft& draft);
 /// Lets each side speak for the other where one has failed, and lowers the confidence of pairs
 /// that disagree.
 void ReconcileSides(ProposalDraft& draft);
+/// Lowers the confidence of points that lie away from where the others of their mesh, and the
+/// ground, say that they are.
+void JudgeAgainstOthers(ProposalDraft& draft);
 /// Moves points whose crude triangles face inward or have collapsed until the meshes are sound.
 void MendTriangles(ProposalDraft& draft);
+/// Makes confidences comparable between points: places that proportions alone define are never as
+/// sure as those that the skin shows.
+void TemperConfidence(ProposalDraft& draft);
 
 }  // namespace ego

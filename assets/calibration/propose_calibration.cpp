@@ -23,7 +23,9 @@ Result<AvatarCalibration> ProposeCalibration(const Character& character, const P
   ProposeHands(draft);
   ProposeFeet(draft);
   ReconcileSides(draft);
+  JudgeAgainstOthers(draft);
   MendTriangles(draft);
+  TemperConfidence(draft);
   UpdateThickness(character, draft.calibration);
   if (!Report(progress, 1.0, "calibration proposed")) return cancelled;
   return draft.calibration;

@@ -101,7 +101,7 @@ void HeadProposer::Put(S point, const Vec3& origin, const Vec3& direction, doubl
   std::string reason;
   if (agreement < 0.6) reason = "the skin is uneven or open here";
   if (hit->loose_layer) {
-    confidence -= 0.1;
+    confidence -= 0.25;
     reason = "a hat, hair or another loose piece lies over the skin here";
   }
   ProposalDraft::Put(target, *hit, confidence, reason);

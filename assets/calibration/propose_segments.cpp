@@ -18,6 +18,27 @@ struct Dot {
   double radius;
 };
 
+/// Where rays fail (a stick of few vertices beside its bone) the surface's own rings may tell.
+bool TakeRings(ProposalDraft& draft, LimbSegment segment) {
+  SegmentCalibration& target = draft.calibration.At(segment);
+  const SurfaceMesh& surface = draft.Surface();
+  target.dots.clear();
+  int found = 0;
+  for (const double share : kRings) {
+    const auto ring = surface.Ring(segment, share);
+    if (!ring || ring->covered < 0.9) continue;
+    ++found;
+    for (const MeshPoint& place : ring->Even(kSpokes)) {
+      target.dots.push_back({place, PickState::kProposed, 0.6, ""});
+    }
+  }
+  if (found == 0) return false;
+  target.confidence = found >= 2 ? 0.6 : 0.45;
+  target.state = target.confidence < kDoubtBelow ? PickState::kDoubtful : PickState::kProposed;
+  target.reason = "measured on the few rings of skin around the bone";
+  return true;
+}
+
 /// A radius that needs no skin: the template's, which knows the bone's length.
 void TakeTemplate(ProposalDraft& draft, LimbSegment segment, std::string reason) {
   SegmentCalibration& target = draft.calibration.At(segment);
@@ -93,6 +114,7 @@ void ProposeSegment(ProposalDraft& draft, LimbSegment segment) {
   }
   const int all = static_cast<int>(kRings.size()) * kSpokes;
   if (dots.size() < 6) {
+    if (TakeRings(draft, segment)) return;
     TakeTemplate(draft, segment, "hardly any skin lies around the bone");
     return;
   }

@@ -104,7 +104,7 @@ void TrunkProposer::Cast(S point, SkinRegion region, const Vec3& origin, const V
   std::string reason;
   if (agreement < 0.6) reason = "the skin is uneven or open here";
   if (hit->loose_layer) {
-    confidence -= 0.1;
+    confidence -= 0.15;
     reason = "loose cloth or hair lies over the skin here";
   }
   if (glm::dot(hit->normal_ms, direction) < 0.1) {
