@@ -126,7 +126,7 @@ Command AddCalibrateCommand(CLI::App& program) {
       "--report report.json");
   line->callback([arguments] {
     if (!arguments->check && arguments->out.empty()) {
-      throw CLI::RequiredError("--out is required, unless --check is given");
+      throw CLI::RequiredError("--out (unless --check is given)");
     }
   });
   return {line, [arguments] { return Calibrate(*arguments); }};

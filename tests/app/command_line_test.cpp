@@ -11,8 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/gltf/character_file.h"
 #include "assets/takes/bvh.h"
 #include "core/body/body.h"
+#include "tests/support/capsule_person.h"
 
 namespace ego {
 namespace {
@@ -139,6 +141,48 @@ TEST_F(CommandLine, ASkeletonTakeComesBackAsTheSkeletonItIs) {
   const Result<JointMotion> solved = ReadBvh(folder_ / "solved.bvh");
   ASSERT_TRUE(solved) << solved.error();
   EXPECT_EQ(solved->frame_count, 30u);
+}
+
+TEST_F(CommandLine, CalibrateTellsByItsExitCodeWhetherAPersonShouldLook) {
+  const fs::path avatar = folder_ / "person.glb";
+  ASSERT_TRUE(WriteCharacter(avatar, test::MakeCapsulePerson()));
+  const Outcome first =
+      Run("calibrate --avatar person.glb --out person.glb.calib.json --report r.json");
+  EXPECT_TRUE(first.code == 0 || first.code == 3) << first.err;
+  EXPECT_NE(first.out.find("person.glb.calib.json: "), std::string::npos) << first.out;
+  EXPECT_EQ(first.code == 3, first.out.find("a person should look") != std::string::npos);
+  const std::string report = TextOf(folder_ / "r.json");
+  for (const char* key : {"aPersonShouldLook", "findings", "points", "testPostures"}) {
+    EXPECT_NE(report.find(key), std::string::npos) << key;
+  }
+  // A calibration that is plainly wrong: the navel on a foot.
+  std::string text = TextOf(folder_ / "person.glb.calib.json");
+  const auto entry = [&](const std::string& key) {
+    const std::size_t at = text.find("{", text.find("\"" + key + "\""));
+    return std::pair(at, text.find("}", at) + 1 - at);
+  };
+  const auto [heel, heel_size] = entry("heel");
+  const std::string on_the_foot = text.substr(heel, heel_size);
+  const auto [navel, navel_size] = entry("navel");
+  text.replace(navel, navel_size, on_the_foot);
+  std::ofstream(folder_ / "wrong.json") << text;
+  const Outcome wrong = Run("calibrate --check --avatar person.glb --out wrong.json");
+  EXPECT_EQ(wrong.code, 3) << wrong.err;
+  EXPECT_NE(wrong.out.find("Navel"), std::string::npos) << wrong.out;
+  EXPECT_EQ(TextOf(folder_ / "wrong.json"), text) << "--check writes nothing";
+
+  ExpectOneSentence("calibrate --avatar no.glb --out x.json", 1, "no.glb");
+  ExpectOneSentence("calibrate --avatar person.glb --out none/x.json", 1, "x.json");
+  ExpectOneSentence("calibrate --avatar person.glb", 2, "--out");
+  ExpectOneSentence("calibrate --out x.json", 2, "--avatar");
+  // What a person worked on is not replaced unasked.
+  text = TextOf(folder_ / "person.glb.calib.json");
+  text.replace(text.find("\"proposed\""), 10, "\"picked\"");
+  std::ofstream(folder_ / "person.glb.calib.json") << text;
+  const std::string again = "calibrate --avatar person.glb --out person.glb.calib.json";
+  ExpectOneSentence(again, 1, "--force");
+  EXPECT_EQ(TextOf(folder_ / "person.glb.calib.json"), text);
+  EXPECT_NE(Run(again + " --force").code, 1);
 }
 
 }  // namespace

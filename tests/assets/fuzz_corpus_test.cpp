@@ -5,12 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/calibration/calibration_file.h"
 #include "assets/files/file_io.h"
 #include "assets/gltf/character_file.h"
 #include "assets/takes/bvh.h"
 #include "assets/takes/c3d.h"
 #include "assets/takes/trc.h"
 #include "core/pipeline/skeleton_capture.h"
+#include "tests/support/capsule_person.h"
 #include "tests/support/character_laws.h"
 #include "tests/support/take_laws.h"
 
@@ -60,6 +62,21 @@ TEST(FuzzCorpus, HoldsTheLawsOfGltf) {
     test::CheckCharacter(ParseCharacter(bytes, "x.glb"), "x.glb");
   };
   EXPECT_GE(Replay("gltf", read), 10u);
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfCalibrations) {
+  const Character person = test::MakeCapsulePerson();
+  const auto read = [&](auto bytes) {
+    // Files of every version that ever was, none of them made on this character.
+    const auto loaded = ParseCalibration(Text(bytes), "x.calib.json", person);
+    ASSERT_TRUE(loaded) << loaded.error();
+    EXPECT_FALSE(loaded->warnings.empty());
+    const auto again =
+        ParseCalibration(FormatCalibration(person, loaded->calibration), "x.calib.json", person);
+    ASSERT_TRUE(again) << again.error();
+    EXPECT_EQ(again->calibration, loaded->calibration);
+  };
+  EXPECT_GE(Replay("calibration", read), 4u);
 }
 
 }  // namespace
