@@ -98,6 +98,7 @@ void Adapt(const Body& avatar, const EgocentricPose& egocentric, const AdaptSett
            Pose& out) {
   AdaptState state(avatar, egocentric, settings);  // section 6.1: root and captured joint angles
   const std::array<Quat, kLimbCount> captured_ws = state.extremity_ws;
+  StandOnLegs(state);
   SumBody(state);
   InitializeArms(state);
 

@@ -16,9 +16,23 @@ struct AdaptSettings {
   double plane_retreat = 1.5;
   /// Metres over which a violated plane takes hold. 0: kinks; larger: that much may stay violated.
   double plane_ramp = 0.018;
-  /// Width of the blend between straight and bent, in chord deficit 1 - cos(flexion). 0: elbows
-  /// snap when the reach is exceeded; .02: a limb never gets quite straight.
-  double reach_softness = 0.006;
+  /// Width of the blend between straight and bent, in chord deficit 1 - cos(flexion), where the
+  /// captured limb is neither. 0: elbows snap when the reach is exceeded; .05: an arm that reaches
+  /// for more than its length ends 1.2 % short of it.
+  double arm_reach_softness = 0.05;
+  double leg_reach_softness = 0.01;
+  /// Metres of a mid joint's gap to the nearest surface at which half of the swivel towards its
+  /// target is used (section 6.2). Large: as published; elbows of bodies with other proportions
+  /// then flutter about targets that no elbow can reach.
+  double swivel_gap = 0.020;
+  /// Metres added to the gaps of wrist, palm and fingertip where they are weighed against each
+  /// other. 0: the arm jumps from one to the other; large: contacts are left to the last
+  /// correction.
+  double hand_softness = 0.050;
+  /// Metres of gap at which one surface counts as much for a leg as its captured joint angles; what
+  /// stands is held by `stance_height` instead. 0: off, surfaces alone count, and thick or short
+  /// legs are thrown about as they pass each other; small: crossed legs lose their contact.
+  double leg_gap = 0.006;
   /// Metres added to the inverse importances of the arms in gamma (appendix C). 0: as published;
   /// larger: gamma turns slower and ends between both solutions.
   double gamma_softness = 0.020;
@@ -42,9 +56,13 @@ struct AdaptSettings {
   /// Whether the folding angle counts by the legs' share of the arms' importance. Off: as
   /// published; far legs then bend the trunk as much as near ones.
   bool folding_by_share = true;
-  /// Height of the sole, metres, below which a foot stands where the root's scale puts it. 0: off;
-  /// large: swinging feet are held too.
-  double stance_height = 0.020;
+  /// Height of the sole, metres, below which a foot begins to say how high the root must be for its
+  /// leg. 0: off, the root's scale alone says; small: the root moves as the foot comes down.
+  double root_height_fade = 0.15;
+  /// Height of the sole, metres, below which a foot stands where the root's scale puts it, and
+  /// metres above over which that fades. 0: off; large: swinging feet are held too.
+  double stance_height = 0.030;
+  double stance_fade = 0.090;
   /// Steps of the last correction that keeps arms out of trunk and head and hands on their
   /// contacts. 0: off. Each costs some microseconds near the body.
   int clearance_steps = 3;
@@ -53,14 +71,18 @@ struct AdaptSettings {
   double clearance_margin = 0.018;
   /// Metres of the performer's own gap over which a hand's contact fades out. Smaller: contacts
   /// begin suddenly; larger: hands that merely pass are pulled along.
-  double contact_fade = 0.030;
+  double contact_fade = 0.060;
 
   /// The closest reading of the text that is well defined.
   static AdaptSettings Paper() {
     AdaptSettings paper;
     paper.main_iterations = 2;
     paper.plane_ramp = 0.0;
-    paper.reach_softness = 0.0;
+    paper.arm_reach_softness = 0.0;
+    paper.leg_reach_softness = 0.0;
+    paper.swivel_gap = 1e9;
+    paper.hand_softness = 0.0;
+    paper.leg_gap = 0.0;
     paper.gamma_softness = 0.0;
     paper.start_from_captured = false;
     paper.solve_pairs = false;
@@ -69,6 +91,7 @@ struct AdaptSettings {
     paper.folding_begin = 0.0;
     paper.folding_full = 0.0;
     paper.folding_by_share = false;
+    paper.root_height_fade = 0.0;
     paper.stance_height = 0.0;
     paper.clearance_steps = 0;
     return paper;

@@ -53,8 +53,18 @@ void AdaptState::ReadLimbs() {
     limb[Index(l)] = captured;
     chain[Index(l)] =
         MakeChain(avatar.skeleton, l, posed.pose.Position(joints.base),
-                  posed.pose.Rotation(Parent(joints.base)), captured, settings.reach_softness);
+                  posed.pose.Rotation(Parent(joints.base)), captured,
+                  IsArm(l) ? settings.arm_reach_softness : settings.leg_reach_softness);
+    const double gap = 1.0 / egocentric.point[Index(MidPoint(l))].priority;
+    const double half = settings.swivel_gap / 1.78;
+    chain[Index(l)].swivel_share = half / (half + gap);
   }
+}
+
+void AdaptState::MoveRoot(const Vec3& by) {
+  pose.root_ws += by;
+  PlaceBody(avatar, constants, pose, posed);
+  ReadLimbs();
 }
 
 void AdaptState::Apply(Limb l, const LimbPosture& posture) {

@@ -44,6 +44,8 @@ struct AdaptState {
 
   /// Chains and limb postures from `pose`, whose forward kinematics is in `posed`.
   void ReadLimbs();
+  /// Moves everything that is placed.
+  void MoveRoot(const Vec3& by);
   /// Takes a posture for a limb and places its joints, capsules, hand.
   void Apply(Limb limb, const LimbPosture& posture);
   /// Takes a world rotation for a hand or foot; the limb stays.

@@ -22,6 +22,13 @@ constexpr double kAnchorWeight = 10.0;    // of the wrist's place while the arm 
 constexpr double kArmStep = 0.15;         // radians a step can hardly exceed
 constexpr double kHandStep = 0.30;
 
+/// In heights. What lies deeper than the first, and a contact farther off than the second, counts
+/// less and less: which way leads out is undecided deep inside, and arms that do not fit between
+/// the parts of a thick body are not to be thrown from one to the other.
+constexpr double kDeep = 0.02;
+constexpr double kFarContact = 0.03;
+double Bounded(double x) { return 1.0 / (1.0 + x * x); }
+
 /// A wish of one sample: to move by `value` metres along `normal`.
 struct Row {
   std::size_t sample;
@@ -148,12 +155,18 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
         continue;
       }
       if (touching > 0.0) {
-        rows.Add({s, now.gradient, share * (clearance - now.distance),
-                  (other_hand ? kMutualWeight : kContactWeight) * touching});
+        // A share `touching` of the way, whatever the damping.
+        const double most_weight = other_hand ? kMutualWeight : kContactWeight;
+        const double pull =
+            kHandMoveDamping * touching / (1.0 - touching + kHandMoveDamping / most_weight);
+        const double wanted = clearance - now.distance;
+        rows.Add(
+            {s, now.gradient, share * wanted * Bounded(wanted / (kFarContact * height)), pull});
       }
       if (now.distance >= most) continue;
       const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
-      const double weight = performer.trust * Smoothstep(short_of / (0.02 * height));
+      const double weight = performer.trust * Smoothstep(short_of / (0.04 * height)) *
+                            Bounded(short_of / (kDeep * height));
       if (weight > 0.0) rows.Add({s, now.gradient, share * short_of, weight});
     }
   }

@@ -52,7 +52,10 @@ double WantedPitch(const AdaptState& state) {
     }
   }
   const double theta = sine == 0.0 && cosine == 0.0 ? 0.0 : std::atan2(sine, cosine);
-  return state.settings.folding_by_share ? theta * leg_importance / all_importance : theta;
+  if (!state.settings.folding_by_share) return theta;
+  // Behind the root it is undecided which way round is meant: beyond a quarter turn less is done.
+  const double decided = Smoothstep(2.0 - 2.0 * std::abs(theta) / kPi);
+  return theta * decided * leg_importance / all_importance;
 }
 
 }  // namespace

@@ -112,16 +112,47 @@ LinearTarget LinearTargetOf(const AdaptState& state, LimbPoint j) {
   return target;
 }
 
+/// The target of a leg's joint, drawn to where the captured joint angles put it. The ground is left
+/// to `LockStance`, which holds feet by their height alone.
+LinearTarget LegTarget(const AdaptState& state, LimbPoint j) {
+  LinearTarget target = LinearTargetOf(state, j);
+  const double gap = state.settings.leg_gap / 1.78;
+  if (!(gap > 0.0)) return target;
+  const Limb leg = LimbOf(j);
+  const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
+  double share = 1.0;
+  if (coordinates.ground.importance > 0.0) {
+    target.constant -= coordinates.ground.importance * DenormalizeGround(state, leg);
+    share -= coordinates.ground.importance;
+  }
+  const LimbChain& chain = state.chain[Index(leg)];
+  const LimbPlacement captured = Place(chain, chain.captured);
+  const double anchor = 1.0 / (gap * coordinates.importance_sum);
+  const double sum = share + anchor;
+  target.constant += anchor * (j == MidPoint(leg) ? captured.mid : captured.end);
+  return {target.constant / sum, target.on_partner / sum};
+}
+
+/// What is asked of a limb's mid joint.
+LinearTarget MidTarget(const AdaptState& state, Limb limb) {
+  return IsArm(limb) ? LinearTargetOf(state, MidPoint(limb)) : LegTarget(state, MidPoint(limb));
+}
+
+/// How much a point of a hand counts among the three: what touches decides.
+double HandWeight(const AdaptState& state, LimbPoint j) {
+  const double gap = 1.0 / state.egocentric.point[Index(j)].importance_max;
+  const double softened = 1.0 / (gap + state.settings.hand_softness / 1.78);
+  return softened * softened;
+}
+
 /// What the points of a limb's end ask of its end joint together.
 LinearTarget EndTarget(const AdaptState& state, Limb limb) {
-  if (!IsArm(limb) || !state.egocentric.form.hand_points) {
-    return LinearTargetOf(state, EndPoint(limb));
-  }
+  if (!IsArm(limb)) return LegTarget(state, EndPoint(limb));
+  if (!state.egocentric.form.hand_points) return LinearTargetOf(state, EndPoint(limb));
   LinearTarget mean;
   double sum = 0.0;
   for (const LimbPoint j : {EndPoint(limb), PalmPoint(limb), FingertipPoint(limb)}) {
-    const double importance = state.egocentric.point[Index(j)].importance_max;
-    const double weight = importance * importance;
+    const double weight = HandWeight(state, j);
     const LinearTarget target = LinearTargetOf(state, j);
     mean.constant += weight * (target.constant - HandOffset(state, j));
     mean.on_partner += weight * target.on_partner;
@@ -180,7 +211,11 @@ Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
   if (!state.egocentric.form.sole_contact) return sole;
   const SoleOffset offset = MeasureSole(state.avatar, state.constants, leg,
                                         state.extremity_ws[Index(leg)], relation.on_ball);
-  return sole - Vec3{offset.middle.x, offset.low, offset.middle.z};
+  const Vec2 standing = StandingPlace(state.avatar, state.constants, leg,
+                                      state.egocentric.rotation_ws[Index(JointsOf(leg).end)],
+                                      state.egocentric.rotation_ws[0]);
+  return sole + Vec3{standing.x, 0.0, standing.y} -
+         Vec3{offset.middle.x, offset.low, offset.middle.z};
 }
 
 void SumBody(AdaptState& state) {
@@ -217,8 +252,7 @@ void SumBody(AdaptState& state) {
 
 LimbTargets TargetsOf(const AdaptState& state, Limb limb) {
   const Vec3 partner = PartnerEnd(state, limb);
-  return {Resolve(LinearTargetOf(state, MidPoint(limb)), partner),
-          Resolve(EndTarget(state, limb), partner)};
+  return {Resolve(MidTarget(state, limb), partner), Resolve(EndTarget(state, limb), partner)};
 }
 
 std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left) {
@@ -243,7 +277,7 @@ std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left) {
   std::array<LimbTargets, 2> targets;
   for (std::size_t k = 0; k < 2; ++k) {
     targets[k].end = Resolve(open[k], reached[1 - k]);
-    targets[k].mid = Resolve(LinearTargetOf(state, MidPoint(limb[k])), reached[1 - k]);
+    targets[k].mid = Resolve(MidTarget(state, limb[k]), reached[1 - k]);
   }
   return targets;
 }
@@ -273,9 +307,9 @@ LimbTargets InitialTargets(const AdaptState& state, Limb arm) {
   }
   double sum = 0.0;
   for (const LimbPoint j : {EndPoint(arm), PalmPoint(arm), FingertipPoint(arm)}) {
-    const double importance = state.egocentric.point[Index(j)].importance_max;
-    targets.end += importance * importance * target_of(j);
-    sum += importance * importance;
+    const double weight = HandWeight(state, j);
+    targets.end += weight * target_of(j);
+    sum += weight;
   }
   targets.end /= sum;
   return targets;

@@ -168,7 +168,8 @@ LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const
   const double angle =
       AngleAbout(axis, mid, wanted) * Trust(glm::length(wanted), 0.1 * chain.Reach());
   const double flexion = MeasureFlexion(chain, reached.mid).angle;
-  reached.base = TwistBase(chain, reached.base, axis, BoundTwist(angle, flexion));
+  reached.base =
+      TwistBase(chain, reached.base, axis, chain.swivel_share * BoundTwist(angle, flexion));
   return reached;
 }
 

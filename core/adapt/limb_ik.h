@@ -32,6 +32,7 @@ struct LimbChain {
   double captured_deficit = 0.0;  // 1 - cos(flexion) of the captured joint angles
   double captured_flexion = 0.0;  // signed, radians
   double reach_softness = 0.0;    // AdaptSettings
+  double swivel_share = 1.0;      // of the swivel towards the mid joint's target
 
   double Reach() const { return upper_length + lower_length; }
 };
@@ -61,7 +62,8 @@ struct Flexion {
 Flexion MeasureFlexion(const LimbChain& chain, const Quat& mid);
 
 /// Standard limb IK [34]: the end joint is brought to `end_target`, then the mid joint as near to
-/// `mid_target` as turning about the line from base to end allows, bounded by the flexion.
+/// `mid_target` as turning about the line from base to end allows, bounded by the flexion, and no
+/// farther than the chain's `swivel_share`.
 /// Starts from `posture` and changes as little of it as needed; a target out of reach is pointed
 /// at. Singular cases: a target at the base joint keeps the direction; a mid target on the line
 /// from base to end keeps the swivel.

@@ -44,9 +44,11 @@ struct CapsuleRelation {
 /// A foot against the ground (figure 6), in standing root heights.
 struct GroundRelation {
   double importance = 0.0;  // lambda-hat
-  Vec2 offset{0.0};         // (x, z) of the sole's middle from the root reference point g
-  double gap = 0.0;         // height of the sole
-  double on_ball = 0.5;     // 0: stands on the heel, 1: on the ball
+  /// (x, z) of the sole's middle from the root reference point g, less where it is in standing
+  /// (`StandingPlace`): the width of the hips is the body's own.
+  Vec2 offset{0.0};
+  double gap = 0.0;      // height of the sole
+  double on_ball = 0.5;  // 0: stands on the heel, 1: on the ball
 };
 
 /// Egocentric coordinates of one point: E_j of equation 6.

@@ -61,14 +61,17 @@ GroundRelation RelateToGround(const Context& context, LimbPoint j, ImportanceTot
   const Vec3& root = context.posed.pose.position_ws[0];
   GroundRelation relation;
   Vec3 sole = ankle;
+  Vec2 standing{0.0};
   if (context.settings.form.sole_contact) {
     const Quat& foot = context.posed.pose.Rotation(JointOf(j));
     relation.on_ball = StandsOnBall(context.body, LimbOf(j), foot);
     const SoleOffset offset =
         MeasureSole(context.body, context.constants, LimbOf(j), foot, relation.on_ball);
     sole = {ankle.x + offset.middle.x, ankle.y + offset.low, ankle.z + offset.middle.z};
+    standing = StandingPlace(context.body, context.constants, LimbOf(j), foot,
+                             context.posed.pose.rotation_ws[0]);
   }
-  relation.offset = Vec2{sole.x - root.x, sole.z - root.z} / h_root;
+  relation.offset = (Vec2{sole.x - root.x, sole.z - root.z} - standing) / h_root;
   relation.gap = sole.y / h_root;
   relation.importance =
       importance.Add(std::abs(sole.y), 1.0, context.scale * context.settings.ground_epsilon);

@@ -112,6 +112,20 @@ SoleOffset MeasureSole(const Body& body, const BodyConstants& constants, Limb le
   return {glm::mix(heel + half, ball - half, on_ball), std::min(heel.y, ball.y)};
 }
 
+Vec2 StandingPlace(const Body& body, const BodyConstants& constants, Limb leg, const Quat& foot_ws,
+                   const Quat& hips_ws) {
+  const FootSurface& foot = body.surface.foot[IsLeft(leg) ? 0 : 1];
+  const Vec3 middle = 0.5 * (foot.heel_ms + foot.ball_ms) - constants.canonical[0];
+  const auto level = [](const Quat& rotation) {
+    const Vec3 side = rotation * Vec3{1.0, 0.0, 0.0};
+    const double length = std::hypot(side.x, side.z);
+    return Vec2{side.x, side.z} * (std::hypot(1.0, 0.1) / std::hypot(length, 0.1));
+  };
+  const Vec2 side = level(foot_ws);
+  const Vec2 ahead{-side.y, side.x};
+  return Smoothstep(2.0 * glm::dot(side, level(hips_ws))) * (middle.x * side + middle.z * ahead);
+}
+
 void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed) {
   std::array<Vec3, kSampleCount>& sample = posed.sample;
   for (std::size_t i = 0; i < kSampleCount; ++i) {

@@ -77,6 +77,13 @@ struct SoleOffset {
 /// or ball's own place.
 SoleOffset MeasureSole(const Body& body, const BodyConstants& constants, Limb leg,
                        const Quat& foot_ws, double on_ball);
+/// Where the middle of the sole is in the canonical pose, seen from the root's ground point (x, z),
+/// turned as the foot now points. A foot that stands does not turn, so a place that is measured
+/// from here stands still on any body, however wide its hips. Fades to zero where the foot points
+/// more than 60 degrees away from the hips' heading, or lies on its edge, and says nothing of it.
+Vec2 StandingPlace(const Body& body, const BodyConstants& constants, Limb leg, const Quat& foot_ws,
+                   const Quat& hips_ws);
+
 /// What a foot stands on, by how far it is pitched: 0 heel, 0.5 flat, 1 ball.
 double StandsOnBall(const Body& body, Limb leg, const Quat& foot_ws);
 
