@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <string_view>
 
 #include <stb/stb_image_write.h>
 #include <tiny_gltf.h>
@@ -38,6 +39,22 @@ Json Numbers(const Mat4& matrix) {
     for (int r = 0; r < 4; ++r) numbers.push_back(matrix[c][r]);
   }
   return numbers;
+}
+
+/// Whether this is what VRM 1.0 calls a finger's bone: "leftThumbMetacarpal", "rightLittleDistal".
+bool IsVrmFinger(std::string_view name) {
+  for (const std::string_view side : {"left", "right"}) {
+    if (!name.starts_with(side)) continue;
+    name.remove_prefix(side.size());
+    for (const std::string_view finger : {"Thumb", "Index", "Middle", "Ring", "Little"}) {
+      if (!name.starts_with(finger)) continue;
+      name.remove_prefix(finger.size());
+      return name == "Proximal" || name == "Distal" ||
+             name == (finger == "Thumb" ? "Metacarpal" : "Intermediate");
+    }
+    return false;
+  }
+  return false;
 }
 
 /// Builds a document from a character, piece by piece.
@@ -235,6 +252,11 @@ class Builder {
                             joint == J::kLeftToes || joint == J::kRightToes;
       if (node[j] < 0 && !optional) return;
       if (node[j] >= 0) bones[std::string(Name(joint))] = {{"node", node[j]}};
+    }
+    // Fingers are helper joints here; those that bear VRM's own names are declared.
+    for (std::size_t n = 0; n < character_.nodes.joints.size(); ++n) {
+      const std::string& name = character_.nodes.joints[n].name;
+      if (IsVrmFinger(name) && !bones.contains(name)) bones[name] = {{"node", n}};
     }
     root_["extensionsUsed"] = {"VRMC_vrm"};
     root_["extensions"]["VRMC_vrm"] = {{"specVersion", "1.0"},

@@ -47,6 +47,10 @@ PersonParameters Child() {
   m.trouser_color = Srgb(0x39506B);
   m.shoe_color = Srgb(0xE7E3DA);
   m.hair_color = Srgb(0xB07A3C);
+  m.trim_color = Srgb(0xF3F1E6);
+  m.sole_color = Srgb(0xE2574C);
+  m.eye_color = Srgb(0x3E6E9E);
+  m.jaw = 0.0;
   return m;
 }
 
@@ -86,6 +90,10 @@ PersonParameters Alien() {
   m.shirt_color = Srgb(0x9A80FF);
   m.trouser_color = Srgb(0x5B4AA6);
   m.shoe_color = Srgb(0x35304A);
+  m.trim_color = Srgb(0x6A54C8);
+  m.sole_color = Srgb(0x9A80FF);
+  m.eye_color = Srgb(0xD98A1E);
+  m.jaw = 0.0;
   return m;
 }
 
@@ -126,6 +134,10 @@ PersonParameters Woman() {
   m.trouser_color = Srgb(0x37323F);
   m.shoe_color = Srgb(0xD9CFC4);
   m.hair_color = Srgb(0x3A2620);
+  m.trim_color = Srgb(0xD65A50);
+  m.sole_color = Srgb(0xF4F1EC);
+  m.eye_color = Srgb(0x5B7A3A);
+  m.jaw = 0.1;
   return m;
 }
 
@@ -163,6 +175,10 @@ PersonParameters BigBelly() {
   m.shirt_color = Srgb(0x5DB4F0);
   m.trouser_color = Srgb(0x4A4438);
   m.shoe_color = Srgb(0x2B2622);
+  m.trim_color = Srgb(0x2F6FA8);
+  m.sole_color = Srgb(0x6B625A);
+  m.eye_color = Srgb(0x4C7FA6);
+  m.jaw = 0.5;
   return m;
 }
 
@@ -199,6 +215,10 @@ PersonParameters Thin() {
   m.trouser_color = Srgb(0x2F3A4A);
   m.shoe_color = Srgb(0xEDE6DB);
   m.hair_color = Srgb(0x2C2422);
+  m.trim_color = Srgb(0x9A4F97);
+  m.sole_color = Srgb(0x8C6FA8);
+  m.eye_color = Srgb(0x3B2A20);
+  m.jaw = 0.2;
   return m;
 }
 
@@ -258,6 +278,8 @@ PersonParameters Slimmer() {
   m.skin_color = Srgb(0x9A6A4A);
   m.hair_color = Srgb(0x2A1F1A);
   m.shirt_color = Srgb(0xD9A441);
+  m.trim_color = Srgb(0x7A5A20);
+  m.jaw = 0.35;
   return m;
 }
 
@@ -282,6 +304,8 @@ PersonParameters Heavier() {
   m.skin_color = Srgb(0xE0B090);
   m.hair_color = Srgb(0x6B4A2E);
   m.shirt_color = Srgb(0xC98A2E);
+  m.trim_color = Srgb(0x6E4714);
+  m.jaw = 0.7;
   return m;
 }
 
@@ -310,6 +334,7 @@ PersonParameters Taller() {
   m.skin_color = Srgb(0x6F4630);
   m.hair_color = Srgb(0x1E1714);
   m.shirt_color = Srgb(0xE9B45C);
+  m.trim_color = Srgb(0x7A5520);
   return m;
 }
 

@@ -3,26 +3,31 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "assets/people/person.h"
 #include "assets/people/person_body.h"
 #include "assets/people/person_shape.h"
 #include "assets/people/person_skin.h"
 #include "assets/people/polygonise.h"
+#include "assets/people/relief.h"
+#include "assets/people/uv_atlas.h"
 
 namespace ego {
 
-/// Puts a person together from meshes: materials, skin, nodes, rig and calibration.
+/// Puts a person together from meshes: materials, skin, texture coordinates, nodes, rig and
+/// calibration.
 class FigureBuilder {
  public:
   FigureBuilder(const PersonParameters& parameters, const Skeleton& skeleton);
 
-  /// A mesh in several materials; vertices on a border are repeated in each of them.
-  void AddSkin(const ClosedMesh& mesh, std::span<const Vec3> normals,
-               std::span<const JointWeights> weights, std::span<const Region> regions);
-  /// A closed piece rigid on one joint, in one of the regions' colours.
-  void AddRigid(std::string name, const ClosedMesh& mesh, HumanoidJoint joint, Region region);
-  /// The same in a colour of its own (sRGB): eyes, mouth. It only decorates: the calibration is
+  /// A closed skin in several materials. `weights` belong to the vertices of the plain mesh that
+  /// `skin.source` names.
+  void AddSkin(const ReliefMesh& skin, std::span<const SkinJointWeights> weights);
+  /// A closed piece rigid on one joint of the palette (kSkinJointCount), in one of the regions'
+  /// colours.
+  void AddRigid(std::string name, const ClosedMesh& mesh, std::size_t skin_joint, Region region);
+  /// The same in a colour of its own (sRGB): brows, mouth. It only decorates: the calibration is
   /// measured without it.
   void AddDetail(std::string name, const ClosedMesh& mesh, HumanoidJoint joint, glm::vec3 color);
 
@@ -32,18 +37,29 @@ class FigureBuilder {
   Person Finish(const PersonShape& shape) &&;
 
  private:
-  MeshPart& PartFor(const std::string& name, glm::vec3 color);
+  void AddNodes(const Skeleton& skeleton);
+  std::uint32_t MaterialFor(const std::string& name, glm::vec3 color);
   glm::vec3 ColorOf(Region region) const;
+  std::vector<UvPiece> LimbPieces() const;
+  void AddPiece(const ClosedMesh& mesh, const SkinJointWeights& weights, std::uint32_t material);
+  void MakeParts();
 
   PersonParameters parameters_;
   Character character_;
   FigureSurface surface_;
+
+  // Everything added, before it is divided by material and chart. Vertices are shared where their
+  // normals are.
+  std::vector<Vec3> position_;
+  std::vector<Vec3> normal_;
+  std::vector<SkinJointWeights> weights_;
+  std::vector<std::array<std::uint32_t, 3>> triangle_;
+  std::vector<std::uint32_t> material_;  // of triangles
+  std::vector<std::uint16_t> piece_;     // of triangles: which of pieces_
+  std::vector<UvPiece> pieces_;
 };
 
 /// Normals that average the faces around each vertex by their angles.
 std::vector<Vec3> VertexNormals(const ClosedMesh& mesh);
-
-/// A closed ball stretched to these radii; `segments` around, half as many from pole to pole.
-ClosedMesh Ball(const Vec3& centre, const Vec3& radius, int segments);
 
 }  // namespace ego

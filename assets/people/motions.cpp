@@ -211,7 +211,7 @@ Script HandsOnKnees(const Stage& stage) {
     p.hand[side] = Touch(stage.At(knee + Vec3{0.0, 0.085, 0.0}, {0.0, 0.0, 1.0}),
                          {-0.25, -1.0, 0.0}, {0.9, -0.1, -0.5});
   }
-  return Visit(p, 1.5, 1.3, 1.5);
+  return Visit(p, 1.55, 1.3, 1.65);
 }
 
 Script HandToAnkle(const Stage& stage) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "assets/people/figure_builder.h"
 #include "assets/people/person_body.h"
@@ -10,7 +11,9 @@
 #include "assets/people/person_shape.h"
 #include "assets/people/person_skin.h"
 #include "assets/people/polygonise.h"
+#include "assets/people/refine.h"
 #include "assets/people/region_cut.h"
+#include "assets/people/relief.h"
 #include "assets/people/robot.h"
 
 namespace ego {
@@ -26,14 +29,14 @@ std::vector<double> Planes(double low, double high, const std::function<double(d
   return planes;
 }
 
-/// Cells of about one part in 96 of the height, finer in the hands and the head,
+/// Cells of about one part in 76 of the height, finer in the hands and the head,
 /// finer for thin shins: the lattice tapers along the limbs and above the neck.
 SampleLattice LatticeOf(const PersonShape& shape) {
   const PersonParameters& m = shape.parameters();
-  const double cell = m.height / 96.0;
+  const double cell = m.height / 76.0;
   const Vec3 wrist = shape.Joint(J::kLeftHand);
-  const double hand_fine = std::min(1.0, 0.042 * m.hand_length / cell);
-  const double head_fine = std::min(1.0, 0.054 * m.head_height / cell);
+  const double hand_fine = std::min(1.0, 0.035 * m.hand_length / cell);
+  const double head_fine = std::min(1.0, 0.070 * m.head_height / cell);
   const double neck = shape.Joint(J::kNeck).y;
   const double face = shape.ChinHeight() + 0.15 * m.head_height;
   const double beside = std::max(0.5 * m.shoulder_width, 0.6 * m.head_width / head_fine);
@@ -50,7 +53,7 @@ SampleLattice LatticeOf(const PersonShape& shape) {
                      (1.0 - SmoothStep(beside, beside + 0.5 * m.shoulder_width, std::abs(x)));
   };
   const double knee = shape.Joint(J::kLeftLowerLeg).y;
-  const double leg_fine = std::clamp(0.32 * m.lower_leg_radius / cell, 0.45, 1.0);
+  const double leg_fine = std::clamp(0.42 * m.lower_leg_radius / cell, 0.45, 1.0);
   const auto leg_scale = [=](double y) {
     return leg_fine + (1.0 - leg_fine) * SmoothStep(knee, knee + 0.3 * (wrist.y - knee), y);
   };
@@ -82,20 +85,106 @@ SampleLattice LatticeOf(const PersonShape& shape) {
   return lattice;
 }
 
+/// How the regions stand out over one another: clothes over skin, hair over the face, lids over
+/// the eyes.
+LiftBeside LiftsOf(const PersonParameters& m) {
+  const double cloth = 0.0022 * m.height;
+  const double head = m.head_height;
+  return [=](Region region, Region other) -> Lift {
+    switch (region) {
+      case Region::kTrim:
+        return {cloth, 0.0};
+      case Region::kShirt:
+        if (other == Region::kTrousers) return {1.4 * cloth, 14.0 * cloth};
+        return other == Region::kSkin ? Lift{cloth, 6.0 * cloth} : Lift{};
+      case Region::kTrousers:
+        return other == Region::kShirt ? Lift{} : Lift{1.2 * cloth, 12.0 * cloth};
+      case Region::kShoes:
+        return other == Region::kSkin ? Lift{0.9 * cloth, 8.0 * cloth} : Lift{};
+      case Region::kSoles:
+        return {1.2 * cloth, 0.0};
+      case Region::kHair:
+        return {0.020 * head, 0.16 * head};
+      case Region::kSkin:
+        return IsEye(other) ? Lift{0.0085 * head * m.eye_size, 0.045 * head * m.eye_size} : Lift{};
+      default:
+        return {};
+    }
+  };
+}
+
+double Wanted(const PersonParameters& m, LimbSegment segment) {
+  switch (segment) {
+    case LimbSegment::kLeftUpperArm:
+    case LimbSegment::kRightUpperArm:
+      return m.upper_arm_radius;
+    case LimbSegment::kLeftForearm:
+    case LimbSegment::kRightForearm:
+      return m.lower_arm_radius;
+    case LimbSegment::kLeftThigh:
+    case LimbSegment::kRightThigh:
+      return m.upper_leg_radius;
+    default:
+      return m.lower_leg_radius;
+  }
+}
+
+/// Widens each limb about its bone until its radius, measured on the mesh, is the wanted one: flat
+/// triangles cut round limbs, and hems add to them.
+void FitRadii(const PersonShape& shape, std::span<const SkinJointWeights> weights,
+              ReliefMesh& skin) {
+  FigureSurface surface;
+  surface.position_ms = skin.mesh.positions;
+  surface.attachment.resize(surface.position_ms.size());
+  surface.triangles = skin.mesh.triangles;
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const auto segment = static_cast<LimbSegment>(s);
+    const Vec3 start = shape.Joint(StartJoint(segment));
+    const Vec3 bone = shape.Joint(EndJoint(segment)) - start;
+    const double factor =
+        Wanted(shape.parameters(), segment) / MeasureRadius(surface, start, start + bone) - 1.0;
+    const std::size_t carrier = Index(StartJoint(segment));
+    for (std::size_t v = 0; v < surface.position_ms.size(); ++v) {
+      const double share = weights[skin.source[v]][carrier];
+      if (share == 0.0) continue;
+      Vec3& p = skin.mesh.positions[v];
+      const double t = glm::dot(p - start, bone) / glm::dot(bone, bone);
+      const double window = SmoothStep(0.05, 0.28, t) * (1.0 - SmoothStep(0.72, 0.95, t));
+      p += share * window * factor * (p - start - t * bone);
+    }
+  }
+}
+
 Person MakeSoftPerson(const PersonParameters& parameters) {
   const PersonShape shape(parameters);
+  const ImplicitSurface surface = [&](const Vec3& p) { return shape(p); };
   FigureBuilder figure(parameters, shape.skeleton());
 
-  ClosedMesh mesh = Polygonise([&](const Vec3& p) { return shape(p); }, LatticeOf(shape));
+  ClosedMesh mesh = Polygonise([&](const Vec3& p) { return shape.Lean(p); }, LatticeOf(shape));
+  const double hand = shape.Joint(HumanoidJoint::kLeftHand).x;
+  for (Vec3& p : mesh.positions) {
+    if (std::abs(p.x) > hand) p = DrawOnto(surface, p, 0.03 * parameters.hand_length, 3);
+  }
+  Refine(
+      surface, [&](const Vec3& p) { return shape.LongestEdge(p); }, 3, mesh);
   const std::vector<Region> regions =
       CutByRegion(mesh, [&](const Vec3& p) { return shape.RegionAt(p); });
   std::vector<Vec3> normals;
-  std::vector<JointWeights> weights;
+  std::vector<SkinJointWeights> weights;
   for (const Vec3& p : mesh.positions) {
     normals.push_back(shape.Normal(p));
-    weights.push_back(SkinWeights(shape, p));
+    weights.push_back(SkinWeightsWithFingers(shape, p));
   }
-  figure.AddSkin(mesh, normals, weights, regions);
+  ReliefMesh skin = Relieve(mesh, regions, normals, LiftsOf(parameters));
+  FitRadii(shape, weights, skin);
+  // The edge of the upper lid carries the lashes.
+  const double eye = shape.head().IrisFront().y;
+  for (std::size_t t = 0; t < skin.regions.size(); ++t) {
+    if (!skin.step[t] || skin.regions[t] != Region::kSkin) continue;
+    const Vec3& p = skin.mesh.positions[skin.mesh.triangles[t][0]];
+    if (p.y > eye) skin.regions[t] = Region::kLashes;
+  }
+  figure.AddSkin(skin, weights);
   AddFace(shape, figure);
   return std::move(figure).Finish(shape);
 }

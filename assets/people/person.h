@@ -55,6 +55,7 @@ struct PersonParameters {
   double eye_size = 1.0;   // relative to the head
   double nose_size = 1.0;  // relative to the head
   double ear_size = 1.0;   // relative to the head
+  double jaw = 0.5;        // from a soft oval (0) to square corners (1)
 
   double hand_length = 0.185;  // wrist joint to the tip of the middle finger
   double foot_length = 0.27;

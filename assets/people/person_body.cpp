@@ -93,23 +93,45 @@ Attachment Blend(const FigureSurface& surface, const Hit& hit) {
   return blend;
 }
 
-/// Mean distance from the bone to the skin around the middle of the segment.
-double MeasureRadius(const FigureSurface& surface, const Vec3& start, const Vec3& end) {
-  const Vec3 axis = glm::normalize(end - start);
-  const Vec3 u = glm::normalize(glm::cross(axis, std::abs(axis.y) > 0.5 ? Vec3{0, 0, 1} : kUp));
-  const Vec3 v = glm::cross(axis, u);
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i <= 4; ++i) {
-    const Vec3 origin = start + (0.3 + 0.1 * i) * (end - start);
-    for (int k = 0; k < 12; ++k) {
-      const double angle = 2.0 * kPi * (k + 0.5) / 12.0;
-      const Vec3 d = std::cos(angle) * u + std::sin(angle) * v;
-      sum += glm::distance(origin, PointAlong(surface, origin, d).position_ms);
-      ++count;
-    }
+/// The part of a surface near the middle of a segment, for rays across it.
+FigureSurface Slice(const FigureSurface& surface, const Vec3& start, const Vec3& end) {
+  const Vec3 bone = end - start;
+  std::vector<double> along(surface.position_ms.size());
+  for (std::size_t v = 0; v < along.size(); ++v) {
+    along[v] = glm::dot(surface.position_ms[v] - start, bone) / glm::dot(bone, bone);
   }
-  return sum / count;
+  FigureSurface slice;
+  constexpr std::uint32_t kNone = 0xffffffffu;
+  std::vector<std::uint32_t> index(along.size(), kNone);
+  for (auto t : surface.triangles) {
+    if (std::max({along[t[0]], along[t[1]], along[t[2]]}) < 0.25) continue;
+    if (std::min({along[t[0]], along[t[1]], along[t[2]]}) > 0.75) continue;
+    for (std::uint32_t& v : t) {
+      if (index[v] == kNone) {
+        index[v] = static_cast<std::uint32_t>(slice.position_ms.size());
+        slice.position_ms.push_back(surface.position_ms[v]);
+        slice.attachment.push_back(surface.attachment[v]);
+      }
+      v = index[v];
+    }
+    slice.triangles.push_back(t);
+  }
+  return slice;
+}
+
+SkinPoint NearestVertex(const FigureSurface& surface, const Vec3& point) {
+  EGO_CHECK(!surface.triangles.empty());
+  SkinPoint nearest;
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& t : surface.triangles) {
+    const Vec3& a = surface.position_ms[t[0]];
+    const double distance = glm::distance(a, point);
+    const Vec3 normal = glm::cross(surface.position_ms[t[1]] - a, surface.position_ms[t[2]] - a);
+    if (distance >= best || glm::length(normal) == 0.0) continue;
+    best = distance;
+    nearest = {a, glm::normalize(normal), surface.attachment[t[0]]};
+  }
+  return nearest;
 }
 
 }  // namespace
@@ -128,7 +150,7 @@ SkinPoint PointAlong(const FigureSurface& surface, const Vec3& origin_ms, const 
     hits = Crossings(surface, origin_ms + 1e-6 * Vec3{0.3, 0.5, 0.8}, direction);
     depth = depth_at_origin(hits);
   }
-  EGO_CHECK(!hits.empty());
+  if (hits.empty()) return NearestVertex(surface, origin_ms);
   const Hit* found = &hits.back();
   for (const Hit& hit : hits) {
     depth -= hit.leaves ? 1 : -1;
@@ -228,6 +250,25 @@ SampleRay RayOf(const PersonShape& shape, SamplePoint point) {
   }
 }
 
+double MeasureRadius(const FigureSurface& surface, const Vec3& start, const Vec3& end) {
+  const FigureSurface slice = Slice(surface, start, end);
+  const Vec3 axis = glm::normalize(end - start);
+  const Vec3 u = glm::normalize(glm::cross(axis, std::abs(axis.y) > 0.5 ? Vec3{0, 0, 1} : kUp));
+  const Vec3 v = glm::cross(axis, u);
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i <= 8; ++i) {
+    const Vec3 origin = start + (0.3 + 0.05 * i) * (end - start);
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 2.0 * kPi * (k + 0.5) / 12.0;
+      const Vec3 d = std::cos(angle) * u + std::sin(angle) * v;
+      sum += glm::distance(origin, PointAlong(slice, origin, d).position_ms);
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
 Body MeasureBody(const PersonShape& shape, const FigureSurface& surface) {
   const PersonParameters& m = shape.parameters();
   Body body;
@@ -260,7 +301,7 @@ Body MeasureBody(const PersonShape& shape, const FigureSurface& surface) {
     hand.half_thickness = 0.5 * glm::distance(hand.palm_ms, back);
     // Just short of the tip, where a finger pad is.
     hand.fingertip_ms =
-        PointAlong(surface, wrist + reach * Vec3{sign * 0.965, -0.045, 0.067}, down).position_ms;
+        PointAlong(surface, wrist + reach * Vec3{sign * 0.955, -0.045, 0.068}, down).position_ms;
 
     const Vec3& ankle = shape.Joint(side == 0 ? J::kLeftFoot : J::kRightFoot);
     FootSurface& foot = body.surface.foot[side];

@@ -24,8 +24,8 @@ struct SkinPoint {
   Attachment attachment;
 };
 
-/// Where a ray from inside the figure comes out of it for the first time. The ray must leave it
-/// somewhere.
+/// Where a ray from inside the figure comes out of it for the first time; of a ray that misses the
+/// figure, the vertex nearest to its origin. The surface must not be empty.
 SkinPoint PointAlong(const FigureSurface& surface, const Vec3& origin_ms, const Vec3& direction);
 
 /// The ray that finds a sample point on a person: from inside the body through the skin.
@@ -34,6 +34,10 @@ struct SampleRay {
   Vec3 direction;
 };
 SampleRay RayOf(const PersonShape& shape, SamplePoint point);
+
+/// Mean distance from the bone to the skin around the middle of a segment: nine rings of twelve
+/// rays, from 0.3 to 0.7 of its length. The paper's limb radius (section 4.2).
+double MeasureRadius(const FigureSurface& surface, const Vec3& start, const Vec3& end);
 
 /// Measures sample points, limb radii, hands and feet on the surface.
 Body MeasureBody(const PersonShape& shape, const FigureSurface& surface);

@@ -39,6 +39,7 @@ constexpr PersonMeasure kMeasures[] = {
     {"eyeSize", &P::eye_size, 0.6, 1.8, false},
     {"noseSize", &P::nose_size, 0.3, 1.6, false},
     {"earSize", &P::ear_size, 0.4, 1.6, false},
+    {"jaw", &P::jaw, 0.0, 1.0, false},
     {"handLength", &P::hand_length, 0.07, 0.15, true},
     {"footLength", &P::foot_length, 0.1, 0.2, true},
     {"sleeveEnd", &P::sleeve_end, 0.15, 1.9, false},

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/people/person_hand.h"
+
 namespace ego {
 namespace {
 
@@ -14,6 +16,9 @@ using field::Profile;
 using field::SmoothIntersection;
 using field::SmoothStep;
 using field::SmoothUnion;
+
+/// Of collar and cuffs, shares of the height.
+constexpr double kTrimWidth = 0.0105;
 
 /// Radius along a segment, scaled so that its mean over the middle (where a radius is measured)
 /// is `radius`.
@@ -75,8 +80,7 @@ PersonShape::PersonShape(const PersonParameters& parameters)
       skeleton_(PersonSkeleton(parameters)),
       joint_(CanonicalPositions(skeleton_)) {
   const PersonParameters& m = parameters_;
-  head_z_ = Joint(J::kHead).z + 0.09 * m.head_depth;
-  crown_ = m.height - (m.hair == Hair::kNone ? 0.0 : 0.05 * m.head_height);
+  head_ = PersonHead(m, ChinHeight(), Joint(J::kHead).z + 0.09 * m.head_depth);
 
   const double hips = m.hips_width / 2.0;
   const double waist = m.waist_width / 2.0;
@@ -169,7 +173,7 @@ double PersonShape::Trunk(const Vec3& p) const {
   return d;
 }
 
-double PersonShape::Arm(const Vec3& p) const {
+double PersonShape::ArmWith(const Vec3& p, double leaner) const {
   const Vec3 q{std::abs(p.x), p.y, p.z};
   const Vec3& wrist = Joint(J::kLeftHand);
   const Vec3& elbow = Joint(J::kLeftLowerArm);
@@ -180,41 +184,12 @@ double PersonShape::Arm(const Vec3& p) const {
   // Far from the hand its many small parts cannot matter.
   const double far = glm::length(q - wrist - Vec3{0.5 * reach, 0.0, 0.0}) - 0.75 * reach;
   const double k = 0.10 * reach;
-  return far > d + k && far > 0.0 ? d : SmoothUnion(d, Hand(q), k);
+  return far > d + k && far > 0.0 ? d : SmoothUnion(d, Hand(q, leaner), k);
 }
 
-double PersonShape::Hand(const Vec3& p) const {
+double PersonShape::Hand(const Vec3& p, double leaner) const {
   const double length = parameters_.hand_length;
-  const Vec3 q = (p - Joint(J::kLeftHand)) / length;  // in hand lengths
-  // The palm widens from the wrist to the knuckles.
-  const double widen = 1.0 / (0.72 + 0.55 * std::clamp(q.x, 0.0, 0.5));
-  double d =
-      field::RoundBox({q.x, q.y, q.z * widen}, {0.27, 0.0, 0.0}, {0.27, 0.078, 0.215}, 0.075);
-  d = SmoothUnion(d, Ellipsoid(q, {0.17, -0.02, 0.13}, {0.17, 0.062, 0.10}), 0.06);  // thumb's ball
-
-  struct Finger {
-    double knuckle_x, knuckle_z, length, spread;
-  };
-  constexpr std::array<Finger, 4> kFingers = {{{0.50, 0.165, 0.43, 0.045},
-                                               {0.53, 0.055, 0.47, 0.012},
-                                               {0.51, -0.055, 0.44, -0.022},
-                                               {0.47, -0.160, 0.35, -0.055}}};
-  double fingers = 1e9;
-  for (const Finger& f : kFingers) {
-    const double r = 0.047;
-    const Vec3 a{f.knuckle_x - 0.06, 0.0, f.knuckle_z};
-    const Vec3 b{f.knuckle_x + 0.45 * f.length, -0.012, f.knuckle_z + 0.5 * f.spread};
-    const Vec3 c{f.knuckle_x + f.length - 0.042, -0.045, f.knuckle_z + f.spread};
-    const double finger =
-        SmoothUnion(Capsule(q, a, b, r + 0.004, r), Capsule(q, b, c, r, 0.041), 0.01);
-    fingers = std::min(fingers, finger);
-  }
-  d = SmoothUnion(d, fingers, 0.03);
-  const double thumb =
-      SmoothUnion(Capsule(q, {0.12, -0.02, 0.12}, {0.32, -0.035, 0.29}, 0.075, 0.056),
-                  Capsule(q, {0.32, -0.035, 0.29}, {0.50, -0.05, 0.345}, 0.056, 0.046), 0.02);
-  d = SmoothUnion(d, thumb, 0.05);
-  return d * length;
+  return length * hand::Distance((p - Joint(J::kLeftHand)) / length, leaner);
 }
 
 double PersonShape::Leg(const Vec3& p) const {
@@ -239,87 +214,25 @@ double PersonShape::Foot(const Vec3& p) const {
   return SmoothIntersection(d, -q.y, 0.03) * length;
 }
 
-double PersonShape::Head(const Vec3& p) const {
-  const PersonParameters& m = parameters_;
-  const double h = m.head_height;
-  const double w = m.head_width / 2.0;
-  const double l = m.head_depth / 2.0;
-  const double chin = ChinHeight();
-  const Vec3 q{std::abs(p.x), p.y - chin, p.z - head_z_};
-  const double top = crown_ - chin;
-  const double skull = 0.41 * h;
-  double d = Ellipsoid(q, {0.0, top - skull, -0.04 * l}, {w, skull, 0.96 * l});
-  d = SmoothUnion(d, Ellipsoid(q, {0.0, 0.32 * h, 0.30 * l}, {0.76 * w, 0.30 * h, 0.60 * l}),
-                  0.16 * h);
-  d = SmoothUnion(d, Ellipsoid(q, {0.0, 0.10 * h, 0.66 * l}, {0.30 * w, 0.09 * h, 0.20 * l}),
-                  0.10 * h);  // chin
-  d = SmoothUnion(d, Ellipsoid(q, {0.50 * w, 0.37 * h, 0.52 * l}, {0.28 * w, 0.12 * h, 0.27 * l}),
-                  0.10 * h);  // cheek
-  const double socket =
-      Ellipsoid(q, {0.42 * w, 0.495 * h, 1.02 * l}, {0.30 * w, 0.075 * h * m.eye_size, 0.20 * l});
-  d = SmoothIntersection(d, -socket, 0.05 * h);
-  d = SmoothUnion(d,
-                  Capsule(q, {0.0, 0.50 * h, 0.90 * l}, {0.0, 0.385 * h, 1.03 * l},
-                          0.035 * h * m.nose_size, 0.052 * h * m.nose_size),
-                  0.045 * h);
-  const double e = m.ear_size;
-  const double ear = Ellipsoid(q, {w + 0.015 * h * e, (0.36 + 0.10 * e) * h, -0.10 * l},
-                               {0.045 * h * e, 0.14 * h * e, 0.15 * l * e});
-  d = SmoothUnion(d, ear, 0.03 * h);
-  return d;
-}
-
 double PersonShape::Neck(const Vec3& p) const {
   const PersonParameters& m = parameters_;
   const Vec3& neck = Joint(J::kNeck);
   return Capsule(p, {0.0, neck.y - 0.6 * m.neck_radius, neck.z},
-                 {0.0, ChinHeight() + 0.30 * m.head_height, head_z_ - 0.16 * m.head_depth},
+                 {0.0, ChinHeight() + 0.30 * m.head_height, HeadDepth() - 0.16 * m.head_depth},
                  1.06 * m.neck_radius, 0.96 * m.neck_radius);
 }
 
-double PersonShape::Hair(const Vec3& p) const {
-  const PersonParameters& m = parameters_;
-  if (m.hair == Hair::kNone) return 1e9;
-  const double h = m.head_height;
-  const double w = m.head_width / 2.0;
-  const double l = m.head_depth / 2.0;
-  const Vec3 q{std::abs(p.x), p.y - ChinHeight(), p.z - head_z_};
-  const double top = m.height - ChinHeight();
-  const double half = 0.43 * h;
-  const Vec3 cap_centre{0.0, top - half, -0.07 * l};
-  double d = Ellipsoid(q, cap_centre, {1.07 * w, half, 1.03 * l});
-  // The hairline: a tilted plane from the forehead to the nape, raised around the ears.
-  const double front = m.hair == Hair::kBob ? 0.70 : 0.735;
-  const double nape = m.hair == Hair::kBob ? 0.02 : 0.24;
-  const double along = SmoothStep(-0.75, 0.95, q.z / l);
-  double line = (nape + (front - nape) * along) * h;
-  if (m.hair == Hair::kBob) {
-    d = SmoothUnion(
-        d, Ellipsoid(q, {0.50 * w, 0.36 * h, -0.30 * l}, {0.66 * w, 0.38 * h, 0.74 * l}), 0.10 * h);
-    line = 0.04 * h + (front - 0.04) * h * SmoothStep(0.15, 0.62, q.z / l - 0.25 * q.x / w + 0.1);
-  }
-  d = SmoothIntersection(d, 0.9 * (line - q.y), 0.03 * h);
-  if (m.hair == Hair::kShort) {
-    const Vec3 tuft{0.0, top - 0.125 * h, 0.50 * l};
-    d = SmoothUnion(d, Ellipsoid(q, tuft, {0.74 * w, 0.115 * h, 0.56 * l}), 0.05 * h);
-  }
-  if (m.hair == Hair::kBun) {
-    d = SmoothUnion(d, Ellipsoid(q, {0.0, 0.70 * h, -1.12 * l}, Vec3(0.17 * h)), 0.03 * h);
-  }
-  return d;
-}
-
-double PersonShape::operator()(const Vec3& p) const {
+double PersonShape::Distance(const Vec3& p, double leaner) const {
   const PersonParameters& m = parameters_;
   const double length = TrunkLength();
   double d = Trunk(p);
-  d = SmoothUnion(d, Arm(p), 0.9 * m.upper_arm_radius);
+  d = SmoothUnion(d, ArmWith(p, leaner), 0.9 * m.upper_arm_radius);
   // What is farther away than its seam is wide has no effect and is left out.
   if (p.y < HipHeight() + 0.25 * length) d = SmoothUnion(d, Leg(p), 0.5 * m.upper_leg_radius);
   if (p.y > Joint(J::kNeck).y - 0.3 * length) {
     d = SmoothUnion(d, Neck(p), 0.10 * length);
     d = SmoothUnion(d, Head(p), 0.10 * m.head_height);
-    d = SmoothUnion(d, Hair(p), 0.012 * m.head_height);
+    d = SmoothUnion(d, head_.Hair(p), 0.012 * m.head_height);
   }
   return d;
 }
@@ -335,40 +248,74 @@ Vec3 PersonShape::Normal(const Vec3& p) const {
   return size > 1e-12 ? g / size : kUp;
 }
 
+double PersonShape::CuffReach() const {
+  const double end = parameters_.sleeve_end;
+  const double elbow = Joint(J::kLeftLowerArm).x;
+  return end < 1.0 ? glm::mix(Joint(J::kLeftUpperArm).x, elbow, end)
+                   : glm::mix(elbow, Joint(J::kLeftHand).x, end - 1.0);
+}
+
+Region PersonShape::LegRegion(const Vec3& p, double arm, double trunk, double leg) const {
+  const PersonParameters& m = parameters_;
+  if (arm < std::min(trunk, leg)) return Region::kSkin;
+  const Vec3& ankle = Joint(J::kLeftFoot);
+  const Vec3& knee = Joint(J::kLeftLowerLeg);
+  const double foot = m.foot_length;
+  const double along = (p.z - ankle.z) / foot;
+  // The sole is thicker under the heel.
+  if (p.y < foot * (0.062 + 0.022 * SmoothStep(0.25, -0.05, along))) return Region::kSoles;
+  const double shoe_top = ankle.y + 0.10 * foot * (1.0 - 0.9 * along);
+  if (p.y < shoe_top) return Region::kShoes;
+  const double hem = m.trouser_end < 1.0 ? glm::mix(HipHeight(), knee.y, m.trouser_end)
+                                         : glm::mix(knee.y, ankle.y, m.trouser_end - 1.0);
+  return p.y < hem ? Region::kSkin : Region::kTrousers;
+}
+
 Region PersonShape::RegionAt(const Vec3& p) const {
   const PersonParameters& m = parameters_;
   const double x = std::abs(p.x);
-  const double head = std::min(Head(p), Neck(p) + 0.004);
-  if (Hair(p) < head && p.y > Joint(J::kNeck).y) return Region::kHair;
+  const double neck_height = Joint(J::kNeck).y;
+  const bool high = p.y > neck_height;
+  const double head = high ? std::min(Head(p), Neck(p) + 0.004) : 1e9;
+  if (high && head_.Hair(p) < head) return Region::kHair;
   const double trunk = Trunk(p);
   const double arm = Arm(p);
-  const double leg = Leg(p);
   const double length = TrunkLength();
+  if (p.y < HipHeight() + 0.06 * length) return LegRegion(p, arm, trunk, Leg(p));
 
-  if (p.y < HipHeight() + 0.06 * length) {
-    if (arm < std::min(trunk, leg)) return Region::kSkin;
-    const Vec3& ankle = Joint(J::kLeftFoot);
-    const Vec3& knee = Joint(J::kLeftLowerLeg);
-    const double shoe_top =
-        ankle.y + 0.10 * m.foot_length * (1.0 - 0.9 * (p.z - ankle.z) / m.foot_length);
-    if (p.y < shoe_top) return Region::kShoes;
-    const double hem = m.trouser_end < 1.0 ? glm::mix(HipHeight(), knee.y, m.trouser_end)
-                                           : glm::mix(knee.y, ankle.y, m.trouser_end - 1.0);
-    return p.y < hem ? Region::kSkin : Region::kTrousers;
-  }
-  const Vec3& shoulder = Joint(J::kLeftUpperArm);
-  const Vec3& elbow = Joint(J::kLeftLowerArm);
-  const Vec3& wrist = Joint(J::kLeftHand);
-  const double cuff = m.sleeve_end < 1.0 ? glm::mix(shoulder.x, elbow.x, m.sleeve_end)
-                                         : glm::mix(elbow.x, wrist.x, m.sleeve_end - 1.0);
+  const double cuff = CuffReach();
+  const double trim = kTrimWidth * m.height;
   if (x > cuff) return Region::kSkin;
-  if (std::min(head, Head(p)) < trunk && p.y > Joint(J::kNeck).y) return Region::kSkin;
+  if (x > cuff - trim) return Region::kTrim;
+  if (high && head < trunk && p.y > ChinHeight() - 0.3 * m.head_height) {
+    return head_.FaceRegion(p);
+  }
   // The collar: a tilted ring around the neck.
-  const double collar =
-      Joint(J::kNeck).y - 0.035 * length - 0.30 * (p.z - Joint(J::kNeck).z) + 0.02 * length;
   const double from_neck = Neck(p);
-  if (p.y > collar && from_neck < 0.035 * length) return Region::kSkin;
+  const double rim = neck_height - 0.015 * length - 0.30 * (p.z - Joint(J::kNeck).z);
+  const double outside = SmoothIntersection(from_neck - 0.035 * length, rim - p.y, 0.10 * length);
+  if (outside < 0.0) return Region::kSkin;
+  if (outside < trim) return Region::kTrim;
   return Region::kShirt;
+}
+
+double PersonShape::LongestEdge(const Vec3& p) const {
+  const PersonParameters& m = parameters_;
+  const double body = 0.025 * m.height;
+  const Vec3 q{std::abs(p.x), p.y, p.z};
+  // Where trim runs round neck and sleeve.
+  const double cuff = CuffReach();
+  if (std::abs(q.x - cuff + 0.5 * kTrimWidth * m.height) < 0.9 * kTrimWidth * m.height ||
+      (q.y > Joint(J::kNeck).y - 0.2 * TrunkLength() && Neck(p) < 0.05 * TrunkLength())) {
+    return 1.25 * kTrimWidth * m.height;
+  }
+  const Vec3 from_wrist = (q - Joint(J::kLeftHand)) / m.hand_length;
+  if (from_wrist.x > 0.0) return 0.08 * m.hand_length;
+  if (q.y > ChinHeight() - 0.02 * m.head_height && q.x < m.head_width) {
+    return head_.LongestEdge(p);
+  }
+  if (q.y < 1.3 * m.ankle_height) return 0.10 * m.foot_length;
+  return body;
 }
 
 }  // namespace ego

@@ -6,14 +6,12 @@
 
 #include "assets/people/field.h"
 #include "assets/people/person.h"
+#include "assets/people/person_head.h"
+#include "assets/people/region.h"
 #include "core/base/math.h"
 #include "core/skeleton/skeleton.h"
 
 namespace ego {
-
-/// The materials a person's surface is divided into.
-enum class Region : std::uint8_t { kSkin, kShirt, kTrousers, kShoes, kHair };
-inline constexpr std::size_t kRegionCount = 5;
 
 /// The skeleton that these measurements give; arm and leg lengths and heights are exact.
 Skeleton PersonSkeleton(const PersonParameters& parameters);
@@ -26,7 +24,9 @@ class PersonShape {
   explicit PersonShape(const PersonParameters& parameters);
 
   /// Approximate signed distance to the skin, negative inside.
-  double operator()(const Vec3& p_ms) const;
+  double operator()(const Vec3& p_ms) const { return Distance(p_ms, 0.0); }
+  /// The same with fingers so lean that a lattice tells them apart.
+  double Lean(const Vec3& p_ms) const { return Distance(p_ms, 0.008); }
   /// Unit outward direction.
   Vec3 Normal(const Vec3& p_ms) const;
   /// Which material a point of the surface has.
@@ -34,11 +34,15 @@ class PersonShape {
 
   /// The pieces, for points anywhere (mirrored to the left side inside).
   double Trunk(const Vec3& p_ms) const;
-  double Arm(const Vec3& p_ms) const;
+  double Arm(const Vec3& p_ms) const { return ArmWith(p_ms, 0.0); }
   double Leg(const Vec3& p_ms) const;
-  double Head(const Vec3& p_ms) const;  // without hair and neck
+  double Head(const Vec3& p_ms) const { return head_.Skin(p_ms); }  // without hair and neck
   double Neck(const Vec3& p_ms) const;
 
+  /// How long an edge of the mesh may be at a place, so that what is small there shows.
+  double LongestEdge(const Vec3& p_ms) const;
+
+  const PersonHead& head() const { return head_; }
   const PersonParameters& parameters() const { return parameters_; }
   const Skeleton& skeleton() const { return skeleton_; }
   const Vec3& Joint(HumanoidJoint joint) const { return joint_[Index(joint)]; }
@@ -48,19 +52,20 @@ class PersonShape {
   double NavelHeight() const { return HipHeight() + 0.27 * TrunkLength(); }
   double ChinHeight() const { return parameters_.height - parameters_.head_height; }
   /// Depth of the middle of the head.
-  double HeadDepth() const { return head_z_; }
-  double HeadCrown() const { return crown_; }
+  double HeadDepth() const { return head_.middle_z(); }
 
  private:
-  double Hair(const Vec3& p) const;
-  double Hand(const Vec3& p) const;
+  double Distance(const Vec3& p, double leaner) const;
+  double ArmWith(const Vec3& p, double leaner) const;
+  double Hand(const Vec3& p, double leaner) const;
   double Foot(const Vec3& p) const;
+  double CuffReach() const;  // how far out the sleeves end
+  Region LegRegion(const Vec3& p, double arm, double trunk, double leg) const;
 
   PersonParameters parameters_;
   Skeleton skeleton_;
   std::array<Vec3, kJointCount> joint_{};
-  double head_z_ = 0.0;
-  double crown_ = 0.0;  // of the skull, below the hair
+  PersonHead head_;
   field::Profile trunk_width_;
   field::Profile trunk_front_;
   field::Profile trunk_back_;

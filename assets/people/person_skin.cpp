@@ -105,6 +105,41 @@ JointWeights SkinWeights(const PersonShape& shape, const Vec3& p_ms) {
   return w;
 }
 
+SkinJointWeights SkinWeightsWithFingers(const PersonShape& shape, const Vec3& p_ms) {
+  const JointWeights body = SkinWeights(shape, p_ms);
+  SkinJointWeights weights{};
+  std::copy(body.begin(), body.end(), weights.begin());
+  for (std::size_t side = 0; side < 2; ++side) {
+    double& palm = weights[Index(side == 0 ? J::kLeftHand : J::kRightHand)];
+    if (palm == 0.0) continue;
+    const double whole = palm;
+    const Vec3 wrist = shape.Joint(J::kLeftHand);
+    const Vec3 p{side == 0 ? p_ms.x : -p_ms.x, p_ms.y, p_ms.z};
+    const auto shares = hand::FingerShares((p - wrist) / shape.parameters().hand_length);
+    for (std::size_t f = 0; f < shares.size(); ++f) {
+      weights[kJointCount + side * hand::kFingerJointCount + f] = whole * shares[f];
+      palm -= whole * shares[f];
+    }
+  }
+  return weights;
+}
+
+SkinJointWeights Rigid(std::size_t skin_joint) {
+  SkinJointWeights weights{};
+  weights.at(skin_joint) = 1.0;
+  return weights;
+}
+
+JointWeights WithoutFingers(const SkinJointWeights& weights) {
+  JointWeights body{};
+  std::copy_n(weights.begin(), kJointCount, body.begin());
+  for (std::size_t f = 0; f < 2 * hand::kFingerJointCount; ++f) {
+    const J palm = f < hand::kFingerJointCount ? J::kLeftHand : J::kRightHand;
+    body[Index(palm)] += weights[kJointCount + f];
+  }
+  return body;
+}
+
 Attachment StrongestFour(const JointWeights& weights) {
   std::array<std::size_t, kJointCount> order{};
   std::iota(order.begin(), order.end(), 0u);

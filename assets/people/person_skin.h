@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "assets/people/person_hand.h"
 #include "assets/people/person_shape.h"
 #include "core/body/body_surface.h"
 
@@ -15,6 +16,19 @@ using JointWeights = std::array<double, kJointCount>;
 /// as the body is thick there; arms and legs begin where their own surface is nearer than the
 /// trunk's, so that nothing bleeds from an arm to the trunk or from one leg to the other.
 JointWeights SkinWeights(const PersonShape& shape, const Vec3& p_ms);
+
+/// The joints of the body and, after them, those of the fingers of the left and the right hand
+/// (person_hand.h): a generated character's palette.
+inline constexpr std::size_t kSkinJointCount = kJointCount + 2 * hand::kFingerJointCount;
+using SkinJointWeights = std::array<double, kSkinJointCount>;
+
+/// The same, with what the hand carries shared with its fingers.
+SkinJointWeights SkinWeightsWithFingers(const PersonShape& shape, const Vec3& p_ms);
+
+/// A piece rigid on one joint of the palette.
+SkinJointWeights Rigid(std::size_t skin_joint);
+/// Fingers counted as their hand.
+JointWeights WithoutFingers(const SkinJointWeights& weights);
 
 /// The four strongest, normalised.
 Attachment StrongestFour(const JointWeights& weights);

@@ -122,18 +122,6 @@ Vec3 Gradient(const ImplicitSurface& f, const Vec3& p, double value) {
          h;
 }
 
-/// Newton steps along the gradient, none longer than `bound`.
-Vec3 DrawOnto(const ImplicitSurface& f, Vec3 p, double bound, int steps) {
-  for (int i = 0; i < steps; ++i) {
-    const double value = f(p);
-    if (std::abs(value) < 1e-6) break;
-    const Vec3 g = Gradient(f, p, value);
-    const Vec3 step = g * (value / std::max(glm::dot(g, g), 0.05));
-    p -= step * std::min(1.0, bound / std::max(glm::length(step), 1e-12));
-  }
-  return p;
-}
-
 struct Net {
   std::vector<Vec3> vertices;
   std::vector<Quad> quads;
@@ -235,6 +223,17 @@ double Shape(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 }  // namespace
+
+Vec3 DrawOnto(const ImplicitSurface& f, Vec3 p, double bound, int steps) {
+  for (int i = 0; i < steps; ++i) {
+    const double value = f(p);
+    if (std::abs(value) < 1e-6) break;
+    const Vec3 g = Gradient(f, p, value);
+    const Vec3 step = g * (value / std::max(glm::dot(g, g), 0.05));
+    p -= step * std::min(1.0, bound / std::max(glm::length(step), 1e-12));
+  }
+  return p;
+}
 
 SampleLattice UniformLattice(const Vec3& low, const Vec3& high, double cell) {
   SampleLattice lattice;

@@ -13,6 +13,9 @@ namespace ego {
 /// Signed distance, roughly, negative inside.
 using ImplicitSurface = std::function<double(const Vec3&)>;
 
+/// Moves a point onto the surface by Newton steps along the gradient, none longer than `bound`.
+Vec3 DrawOnto(const ImplicitSurface& surface, Vec3 point, double bound, int steps);
+
 /// Where an implicit surface is sampled: the planes of a rectilinear lattice, bent into space by
 /// `place` (one to one, so that small things such as fingers can get a denser lattice).
 struct SampleLattice {

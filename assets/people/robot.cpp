@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "assets/people/field.h"
+#include "assets/people/closed_shapes.h"
 #include "assets/people/figure_builder.h"
+#include "assets/people/person_hand.h"
 #include "assets/people/person_shape.h"
-#include "assets/people/polygonise.h"
 
 namespace ego {
 namespace {
@@ -18,40 +19,58 @@ using J = HumanoidJoint;
 /// Adds pieces to a figure, those of the left side on the right as well.
 class Workshop {
  public:
-  Workshop(FigureBuilder& figure, double cell) : figure_(figure), cell_(cell) {}
+  explicit Workshop(FigureBuilder& figure) : figure_(figure) {}
 
   void Box(J joint, Region region, const Vec3& centre, const Vec3& half, double round) {
-    Add(joint, region, centre - half, centre + half,
-        [=](const Vec3& p) { return field::RoundBox(p, centre, half, round); });
+    Add(Index(joint), region, RoundBox(centre, half, round, 8));
   }
   void Capsule(J joint, Region region, const Vec3& a, const Vec3& b, double ra, double rb) {
-    const Vec3 r(std::max(ra, rb));
-    Add(joint, region, glm::min(a, b) - r, glm::max(a, b) + r,
-        [=](const Vec3& p) { return field::Capsule(p, a, b, ra, rb); });
+    Add(Index(joint), region, Shell(a, b, ra, rb, 24));
   }
   void BallPiece(J joint, Region region, const Vec3& centre, const Vec3& radius) {
-    AddMesh(joint, region, ego::Ball(centre, radius, 24));
+    Add(Index(joint), region, Ball(centre, radius, 24));
+  }
+  /// One segment of a finger of the left hand.
+  void FingerPiece(std::size_t finger_joint, const Vec3& a, const Vec3& b, double ra, double rb) {
+    Add(kJointCount + finger_joint, Region::kSkin, Shell(a, b, ra, rb, 10));
   }
 
  private:
-  void Add(J joint, Region region, const Vec3& low, const Vec3& high,
-           const ImplicitSurface& surface) {
-    const Vec3 size = high - low;
-    const double cell = std::min(cell_, 0.16 * std::min({size.x, size.y, size.z}));
-    AddMesh(joint, region, Polygonise(surface, UniformLattice(low, high, cell)));
+  static ClosedMesh Shell(const Vec3& a, const Vec3& b, double ra, double rb, int segments) {
+    std::vector<Vec3> points;
+    std::vector<double> radii;
+    for (int i = 0; i <= 2; ++i) {
+      points.push_back(glm::mix(a, b, 0.5 * i));
+      radii.push_back(glm::mix(ra, rb, 0.5 * i));
+    }
+    return Tube(points, radii, segments);
   }
-  void AddMesh(J joint, Region region, ClosedMesh mesh) {
-    static constexpr std::array<const char*, kRegionCount> kNames = {"Metal", "Shell", "Frame",
-                                                                     "Feet", "Visor"};
-    figure_.AddRigid(kNames[static_cast<std::size_t>(region)], mesh, joint, region);
-    if (Mirror(joint) == joint) return;
+  void Add(std::size_t skin_joint, Region region, ClosedMesh mesh) {
+    const auto name = [&]() -> const char* {
+      switch (region) {
+        case Region::kShirt:
+          return "Shell";
+        case Region::kTrousers:
+          return "Frame";
+        case Region::kShoes:
+          return "Feet";
+        case Region::kHair:
+          return "Visor";
+        default:
+          return "Metal";
+      }
+    }();
+    figure_.AddRigid(name, mesh, skin_joint, region);
+    const bool finger = skin_joint >= kJointCount;
+    const auto joint = static_cast<J>(skin_joint);
+    if (!finger && Mirror(joint) == joint) return;
     for (Vec3& p : mesh.positions) p.x = -p.x;
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
-    figure_.AddRigid(kNames[static_cast<std::size_t>(region)], mesh, Mirror(joint), region);
+    figure_.AddRigid(name, mesh,
+                     finger ? skin_joint + hand::kFingerJointCount : Index(Mirror(joint)), region);
   }
 
   FigureBuilder& figure_;
-  double cell_;
 };
 
 }  // namespace
@@ -59,7 +78,7 @@ class Workshop {
 Person MakeRobot(const PersonParameters& m) {
   const PersonShape shape(m);
   FigureBuilder figure(m, shape.skeleton());
-  Workshop make(figure, m.height / 90.0);
+  Workshop make(figure);
   const auto at = [&](J joint) { return shape.Joint(joint); };
   const double trunk = shape.TrunkLength();
   const double hip = shape.HipHeight();
@@ -108,13 +127,12 @@ Person MakeRobot(const PersonParameters& m) {
   const double reach = m.hand_length;
   make.Box(J::kLeftHand, Region::kShirt, wrist + Vec3{0.33 * reach, 0.0, 0.0},
            {0.23 * reach, 0.09 * reach, 0.22 * reach}, 0.06 * reach);
-  for (const double finger : {-0.155, -0.044, 0.067, 0.172}) {
-    make.Capsule(J::kLeftHand, Region::kSkin, wrist + reach * Vec3{0.50, -0.01, finger},
-                 wrist + reach * Vec3{0.942 - 0.4 * std::abs(finger - 0.067), -0.03, finger},
-                 0.052 * reach, 0.050 * reach);
+  for (std::size_t f = 0; f < hand::kFingerJointCount; ++f) {
+    const hand::Finger& finger = hand::Fingers()[f / hand::kJointsPerFinger];
+    const std::size_t k = f % hand::kJointsPerFinger;
+    make.FingerPiece(f, wrist + reach * finger.point[k], wrist + reach * finger.point[k + 1],
+                     0.92 * reach * finger.radius[k], 0.92 * reach * finger.radius[k + 1]);
   }
-  make.Capsule(J::kLeftHand, Region::kSkin, wrist + reach * Vec3{0.20, -0.02, 0.18},
-               wrist + reach * Vec3{0.45, -0.04, 0.34}, 0.065 * reach, 0.060 * reach);
 
   // Legs and feet.
   const Vec3 hip_joint = at(J::kLeftUpperLeg);

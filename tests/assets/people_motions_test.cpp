@@ -11,79 +11,36 @@
 #include <gtest/gtest.h>
 
 #include "core/skeleton/pose.h"
+#include "tests/support/skin_oracle.h"
 
 namespace ego {
 namespace {
 
 using J = HumanoidJoint;
 
+using test::Skin;
+
 /// The skinned performer in one pose.
-struct Skinned {
-  std::vector<Vec3> position;
-  std::vector<std::size_t> hand;  // of each vertex: 1 left hand, 2 right hand, 0 elsewhere
-};
+Skin SkinOf(const Pose& pose) { return test::SkinOf(ScriptedPerformer().character, pose); }
 
-Skinned SkinOf(const Pose& pose) {
-  const Character& character = ScriptedPerformer().character;
-  const ModelPose model = ForwardKinematics(character.rig.skeleton, pose);
-  std::vector<Mat4> nodes(character.nodes.joints.size());
-  PoseNodes(character.rig, model, nodes);
-  Skinned skinned;
-  for (const MeshPart& part : character.parts) {
-    for (std::size_t v = 0; v < part.positions.size(); ++v) {
-      Vec3 p{0.0};
-      double left = 0.0;
-      double right = 0.0;
-      for (std::size_t k = 0; k < MeshPart::kInfluences; ++k) {
-        const double w = static_cast<double>(part.influences[v].weight[k]);
-        if (w == 0.0) continue;
-        const PaletteEntry& entry = character.palette[part.influences[v].entry[k]];
-        p += w * Vec3(nodes[static_cast<std::size_t>(entry.node)] * entry.inverse_bind *
-                      Vec4(Vec3(part.positions[v]), 1.0));
-        if (entry.node == static_cast<int>(Index(J::kLeftHand)) ||
-            entry.node == static_cast<int>(Index(J::kLeftLowerArm))) {
-          left += w;
-        }
-        if (entry.node == static_cast<int>(Index(J::kRightHand)) ||
-            entry.node == static_cast<int>(Index(J::kRightLowerArm))) {
-          right += w;
-        }
-      }
-      skinned.position.push_back(p);
-      skinned.hand.push_back(left > 0.02 ? 1 : right > 0.02 ? 2 : 0);
-    }
-  }
-  return skinned;
-}
-
-double DistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto to_segment = [&](const Vec3& s, const Vec3& e) {
-    const double t = std::clamp(glm::dot(p - s, e - s) / glm::dot(e - s, e - s), 0.0, 1.0);
-    return glm::distance(p, s + t * (e - s));
-  };
-  const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
-  const bool inside = glm::dot(glm::cross(b - a, p - a), n) >= 0.0 &&
-                      glm::dot(glm::cross(c - b, p - b), n) >= 0.0 &&
-                      glm::dot(glm::cross(a - c, p - c), n) >= 0.0;
-  if (inside) return std::abs(glm::dot(p - a, n));
-  return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
+/// 1: of the left forearm or hand, 2: of the right, 0: elsewhere.
+std::size_t ArmOf(const Skin& skin, std::size_t vertex) {
+  const auto share = [&](J joint) { return skin.share[vertex][Index(joint)]; };
+  if (share(J::kLeftHand) + share(J::kLeftLowerArm) > 0.02) return 1;
+  return share(J::kRightHand) + share(J::kRightLowerArm) > 0.02 ? 2 : 0;
 }
 
 /// Distance from a point to the skin apart from one arm's own.
-double DistanceToSkin(const Vec3& p, const Skinned& skin, std::size_t without) {
+double DistanceToSkin(const Vec3& p, const Skin& skin, std::size_t without) {
   double best = 1e9;
-  std::size_t base = 0;
-  for (const MeshPart& part : ScriptedPerformer().character.parts) {
-    for (std::size_t t = 0; t < part.triangles.size(); t += 3) {
-      const std::size_t a = base + part.triangles[t];
-      const std::size_t b = base + part.triangles[t + 1];
-      const std::size_t c = base + part.triangles[t + 2];
-      if (skin.hand[a] == without || skin.hand[b] == without || skin.hand[c] == without) continue;
-      if (glm::distance(p, skin.position[a]) > best + 0.1) continue;
-      best = std::min(best,
-                      DistanceToTriangle(p, skin.position[a], skin.position[b], skin.position[c]));
+  for (const auto& t : skin.triangles) {
+    const Vec3& a = skin.position[t[0]];
+    if (glm::distance(p, a) > best + 0.1) continue;
+    if (ArmOf(skin, t[0]) == without || ArmOf(skin, t[1]) == without ||
+        ArmOf(skin, t[2]) == without) {
+      continue;
     }
-    base += part.positions.size();
+    best = std::min(best, test::DistanceToTriangle(p, a, skin.position[t[1]], skin.position[t[2]]));
   }
   return best;
 }
@@ -120,7 +77,7 @@ TEST(ScriptedMotions, HandsThatShouldTouchDo) {
     for (double time = contact.from_s; time <= contact.to_s; time += 0.3) {
       const Pose& pose = motion.poses[static_cast<std::size_t>(time * motion.rate_hz)];
       const ModelPose model = ForwardKinematics(body.skeleton, pose);
-      const Skinned skin = SkinOf(pose);
+      const Skin skin = SkinOf(pose);
       for (std::size_t side = 0; side < 2; ++side) {
         if (!(side == 0 ? contact.left : contact.right)) continue;
         const HandSurface& hand = body.surface.hand[side];
@@ -215,7 +172,7 @@ TEST(ScriptedMotions, TheDemoLoopsAndLastsAboutHalfAMinute) {
 TEST(ScriptedMotions, MarkersSitJustAboveTheSkin) {
   const CapturedMotion motion = Motion("hands-on-hips");
   const std::size_t frame = 100;
-  const Skinned skin = SkinOf(motion.poses[frame]);
+  const Skin skin = SkinOf(motion.poses[frame]);
   const MarkerFrame markers = motion.markers->Frame(frame);
   for (std::size_t m = 0; m < markers.position_ws.size(); ++m) {
     const double gap = DistanceToSkin(markers.position_ws[m], skin, 3);
