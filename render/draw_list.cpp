@@ -110,18 +110,15 @@ void DrawList::Clear() {
   contact_shadows.clear();
   glows.clear();
   plates.clear();
-  skinned.clear();
   bounds = {};
 }
 
 void DrawList::Build(const StageView& view, const CharacterStore& characters) {
   Clear();
   const Vec3 eye = view.camera.Position();
-  for (std::size_t i = 0; i < view.figures.size(); ++i) {
-    const Figure& figure = view.figures[i];
+  for (const Figure& figure : view.figures) {
     if (IsUsable(figure.character, characters)) {
-      AddCharacter(figure, static_cast<std::uint32_t>(i),
-                   characters.at(figure.character->character.value), eye);
+      AddCharacter(figure, characters.at(figure.character->character.value), eye);
     }
     if (figure.surface && figure.surface->body != nullptr && figure.surface->pose != nullptr) {
       AddSurface(figure, eye);
@@ -177,8 +174,8 @@ void DrawList::AddMesh(const TriangleSink& sink, std::size_t first_index, const 
   meshes.push_back(mesh);
 }
 
-void DrawList::AddCharacter(const Figure& figure, std::uint32_t index,
-                            const StageCharacter& character, const Vec3& eye) {
+void DrawList::AddCharacter(const Figure& figure, const StageCharacter& character,
+                            const Vec3& eye) {
   const CharacterPart& shown = *figure.character;
   const Character& source = character.character;
   palette_.resize(source.palette.size());
@@ -198,8 +195,6 @@ void DrawList::AddCharacter(const Figure& figure, std::uint32_t index,
                    std::span(normals).subspan(first));
     uvs.resize(first, glm::vec2{0.0f});
     uvs.insert(uvs.end(), part.uvs.begin(), part.uvs.end());
-    skinned.push_back({index, static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(first),
-                       static_cast<std::uint32_t>(count)});
 
     const int material_index = source.parts[p].material;
     const bool has_material =

@@ -73,9 +73,6 @@ struct DrawList {
     glm::vec3 color;
     Vec3 anchor_ws;
   };
-  struct SkinnedRange {
-    std::uint32_t figure, part, first_vertex, vertex_count;
-  };
 
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
@@ -86,7 +83,6 @@ struct DrawList {
   std::vector<Spot> contact_shadows;
   std::vector<Spot> glows;
   std::vector<Plate> plates;
-  std::vector<SkinnedRange> skinned;
   Box3 bounds;
 
   /// Poses every figure of the view. Names are borrowed from it.
@@ -94,8 +90,7 @@ struct DrawList {
 
  private:
   void Clear();
-  void AddCharacter(const Figure& figure, std::uint32_t index, const StageCharacter& character,
-                    const Vec3& eye);
+  void AddCharacter(const Figure& figure, const StageCharacter& character, const Vec3& eye);
   void AddSurface(const Figure& figure, const Vec3& eye);
   void AddSkeleton(const Figure& figure, const Vec3& eye);
   void AddMarkers(const Figure& figure, const Vec3& eye);

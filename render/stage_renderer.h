@@ -13,17 +13,6 @@
 
 namespace ego {
 
-/// Where a picture goes: a rectangle of a framebuffer that the caller owns, in pixels from the
-/// bottom left corner as OpenGL counts them.
-struct DrawTarget {
-  unsigned framebuffer = 0;  // OpenGL name; 0: the window's own
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-  float content_scale = 1.0f;  // of the monitor; sizes text and plates
-};
-
 /// Draws the stage: a calm dark room in which bodies are lit. Needs a current OpenGL 3.3 core
 /// context on the calling thread from Create to the end; owns neither it nor a window, and reads
 /// no file and no clock.
@@ -65,10 +54,6 @@ class StageRenderer {
   /// The box around everything the figures show (offsets included, plates not), for
   /// Camera::Frame. Empty for an empty stage.
   Box3 Bounds(std::span<const Figure> figures);
-
-  /// Skinned positions of the last drawn figure with this index, in its character's parts, world
-  /// space with the offset applied; empty where there is none. Valid until the next Draw.
-  std::span<const glm::vec3> SkinnedPositions(std::size_t figure, std::size_t part) const;
 
  private:
   struct Impl;

@@ -92,4 +92,15 @@ struct StageView {
   bool name_plates = true;
 };
 
+/// Where a picture goes: a rectangle of a framebuffer that the caller owns, in pixels from the
+/// bottom left corner as OpenGL counts them.
+struct DrawTarget {
+  unsigned framebuffer = 0;  // OpenGL name; 0: the window's own
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  float content_scale = 1.0f;  // of the monitor; sizes text and plates
+};
+
 }  // namespace ego
