@@ -50,7 +50,8 @@ class CalibrationEditor {
   std::size_t Settled() const;
 
   // -- Points --------------------------------------------------------------------------------
-  /// Mirrors every Pick, MoveTo, Step, Delete, Confirm and SetLimbPoint onto the partner.
+  /// Mirrors every Pick, Step, Walk, Delete, Confirm, ResetToProposal and limb edit onto the
+  /// partner. On at first.
   void SetSymmetric(bool on);
   bool Symmetric() const;
 

@@ -181,11 +181,10 @@ void CalibrationChecker::Impl::CheckPlace(Look& look, PointId id,
     if (MayFollow(id, attachment.joint[k])) share += attachment.weight[k];
   }
   // Where a rig lacks the joint (no hands, no toes) its skin follows the joint before.
-  const bool has_joint =
-      std::any_of(character.rig.node.begin(), character.rig.node.end(), [&](const int& node) {
-        const auto j = static_cast<J>(&node - character.rig.node.data());
-        return node >= 0 && MayFollow(id, j);
-      });
+  bool has_joint = false;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    has_joint = has_joint || (character.rig.node[j] >= 0 && MayFollow(id, static_cast<J>(j)));
+  }
   if (share < kLeastShare && has_joint) {
     Add(look, Severity::kWarning, FindingKind::kOffBody,
         Title(id) + " lies on skin that moves with the " + Words(attachment.joint[0]) + ".", {id});

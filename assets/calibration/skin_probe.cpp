@@ -15,34 +15,34 @@ using Mask = std::uint32_t;
 
 constexpr double kFar = 1e6;
 
-constexpr Mask Of(std::initializer_list<J> joints) {
+constexpr Mask Joints(std::initializer_list<J> joints) {
   Mask mask = 0;
   for (const J joint : joints) mask |= Mask{1} << Index(joint);
   return mask;
 }
 
-constexpr Mask kTrunk = Of({J::kHips, J::kSpine, J::kChest, J::kUpperChest, J::kNeck,
-                            J::kLeftShoulder, J::kRightShoulder});
+constexpr Mask kTrunk = Joints({J::kHips, J::kSpine, J::kChest, J::kUpperChest, J::kNeck,
+                                J::kLeftShoulder, J::kRightShoulder});
 
 /// The joints whose skin a region holds.
 constexpr std::array<Mask, kSkinRegionCount> kMasks = {
     kTrunk,
-    kTrunk | Of({J::kLeftUpperLeg, J::kRightUpperLeg}),
-    kTrunk | Of({J::kLeftUpperArm, J::kRightUpperArm}),
-    Of({J::kHead}),
-    Of({J::kHead, J::kNeck}),
-    Of({J::kLeftHand}),
-    Of({J::kRightHand}),
-    Of({J::kLeftFoot, J::kLeftToes}),
-    Of({J::kRightFoot, J::kRightToes}),
-    Of({J::kLeftShoulder, J::kLeftUpperArm, J::kLeftLowerArm}),
-    Of({J::kLeftUpperArm, J::kLeftLowerArm, J::kLeftHand}),
-    Of({J::kRightShoulder, J::kRightUpperArm, J::kRightLowerArm}),
-    Of({J::kRightUpperArm, J::kRightLowerArm, J::kRightHand}),
-    Of({J::kHips, J::kLeftUpperLeg, J::kLeftLowerLeg}),
-    Of({J::kLeftUpperLeg, J::kLeftLowerLeg, J::kLeftFoot}),
-    Of({J::kHips, J::kRightUpperLeg, J::kRightLowerLeg}),
-    Of({J::kRightUpperLeg, J::kRightLowerLeg, J::kRightFoot}),
+    kTrunk | Joints({J::kLeftUpperLeg, J::kRightUpperLeg}),
+    kTrunk | Joints({J::kLeftUpperArm, J::kRightUpperArm}),
+    Joints({J::kHead}),
+    Joints({J::kHead, J::kNeck}),
+    Joints({J::kLeftHand}),
+    Joints({J::kRightHand}),
+    Joints({J::kLeftFoot, J::kLeftToes}),
+    Joints({J::kRightFoot, J::kRightToes}),
+    Joints({J::kLeftShoulder, J::kLeftUpperArm, J::kLeftLowerArm}),
+    Joints({J::kLeftUpperArm, J::kLeftLowerArm, J::kLeftHand}),
+    Joints({J::kRightShoulder, J::kRightUpperArm, J::kRightLowerArm}),
+    Joints({J::kRightUpperArm, J::kRightLowerArm, J::kRightHand}),
+    Joints({J::kHips, J::kLeftUpperLeg, J::kLeftLowerLeg}),
+    Joints({J::kLeftUpperLeg, J::kLeftLowerLeg, J::kLeftFoot}),
+    Joints({J::kHips, J::kRightUpperLeg, J::kRightLowerLeg}),
+    Joints({J::kRightUpperLeg, J::kRightLowerLeg, J::kRightFoot}),
 };
 
 /// Parts that are rigid on a node of their own: weapons, hats, bags, or a robot's pieces.
@@ -90,12 +90,12 @@ SkinProbe::SkinProbe(const Character& character)
       mesh_(CanonicalMesh(character)),
       joint_(CanonicalPositions(character.rig.skeleton)),
       closed_(ClosedPieces(character, mesh_)) {
-  std::vector<std::vector<Mask>> regions_of(character.parts.size());  // bit per region
+  regions_of_.resize(character.parts.size());
   for (std::size_t p = 0; p < character.parts.size(); ++p) {
     const MeshPart& part = character.parts[p];
     std::vector<std::array<double, kJointCount>> share(part.positions.size());
     for (std::size_t v = 0; v < share.size(); ++v) share[v] = JointShares(character, part, v);
-    regions_of[p].assign(part.triangles.size() / 3, 0);
+    regions_of_[p].assign(part.triangles.size() / 3, 0);
     for (std::size_t t = 0; 3 * t + 2 < part.triangles.size(); ++t) {
       std::array<double, kJointCount> sum{};
       for (std::size_t k = 0; k < 3; ++k) {
@@ -116,7 +116,7 @@ SkinProbe::SkinProbe(const Character& character)
           if ((kMasks[r] >> j & 1u) != 0u) in_region += sum[j];
         }
         if (in_region < 0.5) continue;
-        regions_of[p][t] |= Mask{1} << r;
+        regions_of_[p][t] |= Mask{1} << r;
         faces_[r].push_back({static_cast<int>(p), static_cast<std::uint32_t>(t), corner, area});
       }
     }
@@ -130,16 +130,27 @@ SkinProbe::SkinProbe(const Character& character)
     if (LeavesOutCarried(r) && !std::all_of(faces.begin(), faces.end(), is_rigid)) {
       for (const Face& face : faces) {
         if (is_rigid(face)) {
-          regions_of[static_cast<std::size_t>(face.part)][face.triangle] &= ~(Mask{1} << r);
+          regions_of_[static_cast<std::size_t>(face.part)][face.triangle] &= ~(Mask{1} << r);
         }
       }
       std::erase_if(faces, is_rigid);
     }
-    bvh_[r] = std::make_unique<MeshBvh>(character, mesh_, [&](int part, std::uint32_t triangle) {
-      return (regions_of[static_cast<std::size_t>(part)][triangle] >> r & 1u) != 0u;
+  }
+}
+
+const MeshBvh& SkinProbe::Of(SkinRegion region) const {
+  const auto r = static_cast<std::size_t>(region);
+  if (!bvh_[r]) {
+    bvh_[r] = std::make_unique<MeshBvh>(*character_, mesh_, [&](int part, std::uint32_t triangle) {
+      return (regions_of_[static_cast<std::size_t>(part)][triangle] >> r & 1u) != 0u;
     });
   }
-  all_ = std::make_unique<MeshBvh>(character, mesh_);
+  return *bvh_[r];
+}
+
+const MeshBvh& SkinProbe::All() const {
+  if (!all_) all_ = std::make_unique<MeshBvh>(*character_, mesh_);
+  return *all_;
 }
 
 const std::vector<SkinProbe::Face>& SkinProbe::Faces(SkinRegion region) const {
@@ -148,8 +159,7 @@ const std::vector<SkinProbe::Face>& SkinProbe::Faces(SkinRegion region) const {
 
 std::vector<SkinHit> SkinProbe::Layers(SkinRegion region, const Vec3& origin_ms,
                                        const Vec3& direction, double gap) const {
-  const std::vector<MeshBvh::Hit> hits =
-      bvh_[static_cast<std::size_t>(region)]->AllHits(origin_ms, direction, kFar);
+  const std::vector<MeshBvh::Hit> hits = Of(region).AllHits(origin_ms, direction, kFar);
   const auto piece_of = [&](const MeshBvh::Hit& hit) {
     return closed_[static_cast<std::size_t>(hit.place.part)][hit.place.triangle];
   };
@@ -229,13 +239,13 @@ std::optional<SkinHit> SkinProbe::OutwardBundle(SkinRegion region, const Vec3& o
 }
 
 std::optional<SkinHit> SkinProbe::Nearest(SkinRegion region, const Vec3& point_ms) const {
-  const std::optional<MeshBvh::Hit> hit = bvh_[static_cast<std::size_t>(region)]->Nearest(point_ms);
+  const std::optional<MeshBvh::Hit> hit = Of(region).Nearest(point_ms);
   if (!hit) return std::nullopt;
   return FromBvh(*hit);
 }
 
 std::optional<SkinHit> SkinProbe::NearestAnywhere(const Vec3& point_ms) const {
-  const std::optional<MeshBvh::Hit> hit = all_->Nearest(point_ms);
+  const std::optional<MeshBvh::Hit> hit = All().Nearest(point_ms);
   if (!hit) return std::nullopt;
   return FromBvh(*hit);
 }

@@ -39,7 +39,8 @@ struct SkinHit {
   bool loose_layer = false;  // more skin lies farther out, beyond a gap
 };
 
-/// A character in its canonical pose, ready to be searched for its skin: model space, metres.
+/// A character in its canonical pose, ready to be searched for its skin: model space, metres. For
+/// one thread at a time.
 class SkinProbe {
  public:
   explicit SkinProbe(const Character& character);
@@ -79,16 +80,21 @@ class SkinProbe {
   const std::array<Vec3, kJointCount>& Joints() const { return joint_; }
   const Vec3& Joint(HumanoidJoint joint) const { return joint_[Index(joint)]; }
   Vec3 PositionOf(const MeshPoint& place) const { return Position(*character_, mesh_, place); }
-  bool Empty() const { return all_->Empty(); }
+  bool Empty() const { return All().Empty(); }
 
  private:
+  const MeshBvh& Of(SkinRegion region) const;
+  const MeshBvh& All() const;
+
   const Character* character_;
   PosedMesh mesh_;
   std::array<Vec3, kJointCount> joint_;
   std::vector<std::vector<std::int32_t>> closed_;  // see ClosedPieces
   std::array<std::vector<Face>, kSkinRegionCount> faces_;
-  std::array<std::unique_ptr<MeshBvh>, kSkinRegionCount> bvh_;
-  std::unique_ptr<MeshBvh> all_;
+  std::vector<std::vector<std::uint32_t>> regions_of_;  // by part and triangle: bit per region
+  // Made when a region is first asked for: a check needs few of them.
+  mutable std::array<std::unique_ptr<MeshBvh>, kSkinRegionCount> bvh_;
+  mutable std::unique_ptr<MeshBvh> all_;
 };
 
 }  // namespace ego
