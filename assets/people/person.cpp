@@ -68,8 +68,11 @@ SampleLattice LatticeOf(const PersonShape& shape) {
   });
   const double hand_reach = 0.45 * m.hand_length / hand_fine;
   const double head_reach = (m.hair == Hair::kBun ? 1.0 : 0.75) * m.head_depth / head_fine;
-  const double trunk_back = 0.7 * std::max(m.chest_depth, m.hips_depth);
-  const double front = std::max(m.belly_thickness, 0.5 * m.chest_depth + 2.0 * m.bust);
+  const double legs = 1.5 * std::max(m.upper_leg_radius, m.lower_leg_radius);
+  const double trunk_back =
+      std::max({0.7 * m.chest_depth, 0.7 * m.hips_depth, legs, 1.5 * m.upper_arm_radius}) + cell;
+  const double front =
+      std::max({m.belly_thickness, 0.5 * m.chest_depth + 2.0 * m.bust, trunk_back}) + cell;
   lattice.z =
       Planes(-std::max({hand_reach, head_reach, trunk_back, 0.3 * m.foot_length / leg_fine}),
              std::max({hand_reach, head_reach, front, 0.9 * m.foot_length / leg_fine}),

@@ -27,7 +27,7 @@ Finger Long(const char* name, double x, double z, double length, double spread, 
   const double tip = 1.0 - 0.042 / length;
   return {name,
           kFingerJoints,
-          {at(0.0, 0.004), at(0.43, -0.002), at(0.72, -0.020), at(tip, -0.045)},
+          {at(0.0, 0.0), at(0.43, -0.002), at(0.72, -0.020), at(tip, -0.045)},
           {radius + 0.004, radius, 0.95 * radius, 0.86 * radius}};
 }
 
@@ -57,7 +57,7 @@ const std::array<Finger, kFingerCount>& Fingers() {
       Long("Index", 0.50, 0.168, 0.43, 0.058, 0.044),
       Long("Middle", 0.53, 0.055, 0.47, 0.014, 0.045),
       Long("Ring", 0.51, -0.058, 0.44, -0.030, 0.043),
-      Long("Little", 0.47, -0.164, 0.35, -0.075, 0.038)};
+      Long("Little", 0.47, -0.168, 0.35, -0.075, 0.038)};
   return kFingers;
 }
 

@@ -24,6 +24,8 @@ struct Finger {
   std::array<Vec3, kJointsPerFinger + 1> point;  // the joints, then the middle of the tip's ball
   std::array<double, kJointsPerFinger + 1> radius;
 };
+/// The knuckles of index and little finger lie as far before as behind the middle line: the hand
+/// that they span points straight out.
 const std::array<Finger, kFingerCount>& Fingers();
 
 /// VRM 1.0 name of a finger joint, "leftIndexProximal".

@@ -180,6 +180,8 @@ double PersonShape::ArmWith(const Vec3& p, double leaner) const {
   const double upper = Segment(q, Joint(J::kLeftUpperArm), elbow, upper_arm_, Vec3(0.0));
   const double lower = Segment(q, elbow, wrist, lower_arm_, Vec3(0.0));
   double d = SmoothUnion(upper, lower, 0.5 * parameters_.lower_arm_radius);
+  const double r = parameters_.lower_arm_radius;
+  d = SmoothUnion(d, glm::length(q - elbow + Vec3{0.1 * r, 0.0, 0.62 * r}) - 0.46 * r, 0.5 * r);
   const double reach = parameters_.hand_length;
   // Far from the hand its many small parts cannot matter.
   const double far = glm::length(q - wrist - Vec3{0.5 * reach, 0.0, 0.0}) - 0.75 * reach;
@@ -200,7 +202,9 @@ double PersonShape::Leg(const Vec3& p) const {
   const double upper =
       Segment(q, Joint(J::kLeftUpperLeg), knee, upper_leg_, {0.0, 0.0, 0.08 * m.upper_leg_radius});
   const double lower = Segment(q, knee, ankle, lower_leg_, {0.0, 0.0, -0.16 * m.lower_leg_radius});
-  const double d = SmoothUnion(upper, lower, 0.4 * m.lower_leg_radius);
+  const double r = m.lower_leg_radius;
+  double d = SmoothUnion(upper, lower, 0.4 * r);
+  d = SmoothUnion(d, glm::length(q - knee - Vec3{0.0, 0.15 * r, 0.58 * r}) - 0.50 * r, 0.5 * r);
   return SmoothUnion(d, Foot(q), 0.10 * m.foot_length);
 }
 

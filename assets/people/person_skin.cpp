@@ -72,7 +72,7 @@ JointWeights SkinWeights(const PersonShape& shape, const Vec3& p_ms) {
     Pass(w, side(J::kLeftShoulder), side(J::kLeftUpperArm), to_arm / to_clavicle);
   const double elbow = shape.Joint(J::kLeftLowerArm).x;
   const double wrist = shape.Joint(J::kLeftHand).x;
-  const double elbow_band = 1.05 * m.upper_arm_radius;
+  const double elbow_band = 0.9 * m.upper_arm_radius;
   Pass(w, side(J::kLeftUpperArm), side(J::kLeftLowerArm),
        SmoothStep(elbow - elbow_band, elbow + elbow_band, p.x));
   Pass(w, side(J::kLeftLowerArm), side(J::kLeftHand),
@@ -81,7 +81,12 @@ JointWeights SkinWeights(const PersonShape& shape, const Vec3& p_ms) {
   // Down along the leg. Above the crotch the two legs share the middle.
   const double band = 0.75 * m.upper_leg_radius;
   const double down = 1.0 - SmoothStep(hip.y - 1.25 * band, hip.y + 0.9 * band, p.y);
-  const double to_leg = p.y > hip.y + 0.3 * length || arm < std::min(trunk, leg) ? 0.0 : down;
+  // Between the legs the pelvis keeps its skin: it would be dragged along with a lifted thigh.
+  const double floor = hip.y - 0.16 * length;
+  const double held = SmoothStep(floor - 0.9 * band, floor + 0.3 * band, p.y) *
+                      (1.0 - SmoothStep(0.10 * hip.x, 0.85 * hip.x, p.x));
+  const double to_leg =
+      p.y > hip.y + 0.3 * length || arm < std::min(trunk, leg) ? 0.0 : down * (1.0 - held);
   Pass(w, J::kHips, side(J::kLeftUpperLeg), to_leg);
   const double crotch =
       SmoothStep(hip.y - 0.16 * length - 0.4 * band, hip.y - 0.16 * length + band, p.y);

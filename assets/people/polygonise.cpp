@@ -57,8 +57,7 @@ class Samples {
           for (std::size_t a = i; a < i1; ++a) {
             for (std::size_t b = j; b < j1; ++b) {
               for (std::size_t c = k; c < k1; ++c) {
-                const bool rim = a == 0 || b == 0 || c == 0 || a + 1 == size_[0] ||
-                                 b + 1 == size_[1] || c + 1 == size_[2];
+                const bool rim = OnRim(At(a, b, c));
                 const double value = near ? surface(Place(a, b, c)) : middle;
                 value_[At(a, b, c)] = rim ? std::max(value, 1e-9) : value;
               }
@@ -103,10 +102,18 @@ class Samples {
     }
   }
 
-  /// Turns the one of two outside samples that is closer to the surface.
+  /// The outermost two layers: always outside, so that the surface ends within the lattice.
+  bool OnRim(std::size_t at) const {
+    const std::size_t k = at % size_[2];
+    const std::size_t j = at / size_[2] % size_[1];
+    const std::size_t i = at / size_[2] / size_[1];
+    return i < 2 || j < 2 || k < 2 || i + 2 >= size_[0] || j + 2 >= size_[1] || k + 2 >= size_[2];
+  }
+
+  /// Turns the one of two outside samples that is closer to the surface, never one of the rim.
   void TurnInside(std::size_t a, std::size_t b) {
-    double& value = value_[value_[a] <= value_[b] ? a : b];
-    value = -1e-9;
+    const bool first = OnRim(b) || (value_[a] <= value_[b] && !OnRim(a));
+    value_[first ? a : b] = -1e-9;
   }
 
   const SampleLattice& lattice_;

@@ -36,9 +36,9 @@ class Lifts {
         const std::uint32_t a = mesh.triangles[t][c];
         const std::uint32_t b = mesh.triangles[t][(c + 1) % 3];
         neighbours[a].push_back(b);
-        const Region other = owner.at(Directed(b, a));
-        if (other == regions[t]) continue;
-        const Lift step = lift(regions[t], other);
+        const auto other = owner.find(Directed(b, a));
+        if (other == owner.end() || other->second == regions[t]) continue;
+        const Lift step = lift(regions[t], other->second);
         if (step.height <= 0.0) continue;
         sources[static_cast<std::size_t>(regions[t])].push_back({a, step});
         sources[static_cast<std::size_t>(regions[t])].push_back({b, step});
@@ -137,10 +137,6 @@ ReliefMesh Relieve(const ClosedMesh& mesh, std::span<const Region> regions,
     return index;
   };
 
-  struct Side {
-    Region region;
-    Triangle triangle;
-  };
   std::unordered_map<std::uint64_t, std::size_t> owner;
   owner.reserve(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -185,7 +181,9 @@ ReliefMesh Relieve(const ClosedMesh& mesh, std::span<const Region> regions,
       const std::uint32_t a = mesh.triangles[t][c];
       const std::uint32_t b = mesh.triangles[t][(c + 1) % 3];
       const Region here = regions[t];
-      const Region there = regions[owner.at(Directed(b, a))];
+      const auto across = owner.find(Directed(b, a));
+      if (across == owner.end()) continue;
+      const Region there = regions[across->second];
       if (here >= there) continue;  // each border edge once
       const auto at_a = rungs(a, lifts(here, a), lifts(there, a));
       const auto at_b = rungs(b, lifts(here, b), lifts(there, b));
