@@ -132,7 +132,7 @@ PersonParameters Woman() {
   m.skin_color = Srgb(0xC98F6B);
   m.shirt_color = Srgb(0xFF7D6E);
   m.trouser_color = Srgb(0x37323F);
-  m.shoe_color = Srgb(0xD9CFC4);
+  m.shoe_color = Srgb(0x4F6D8F);
   m.hair_color = Srgb(0x3A2620);
   m.trim_color = Srgb(0xD65A50);
   m.sole_color = Srgb(0xF4F1EC);

@@ -269,7 +269,11 @@ Region PersonShape::LegRegion(const Vec3& p, double arm, double trunk, double le
   // The sole is thicker under the heel.
   if (p.y < foot * (0.062 + 0.022 * SmoothStep(0.25, -0.05, along))) return Region::kSoles;
   const double shoe_top = ankle.y + 0.10 * foot * (1.0 - 0.9 * along);
-  if (p.y < shoe_top) return Region::kShoes;
+  if (p.y < shoe_top) {
+    // A cap over the toes, and a padded rim.
+    const bool cap = along > 0.60 + 0.9 * std::max(0.0, p.y / foot - 0.10);
+    return cap || p.y > shoe_top - 0.065 * foot ? Region::kSoles : Region::kShoes;
+  }
   const double hem = m.trouser_end < 1.0 ? glm::mix(HipHeight(), knee.y, m.trouser_end)
                                          : glm::mix(knee.y, ankle.y, m.trouser_end - 1.0);
   return p.y < hem ? Region::kSkin : Region::kTrousers;
@@ -305,20 +309,20 @@ Region PersonShape::RegionAt(const Vec3& p) const {
 
 double PersonShape::LongestEdge(const Vec3& p) const {
   const PersonParameters& m = parameters_;
-  const double body = 0.025 * m.height;
+  const double body = 0.027 * m.height;
   const Vec3 q{std::abs(p.x), p.y, p.z};
   // Where trim runs round neck and sleeve.
   const double cuff = CuffReach();
   if (std::abs(q.x - cuff + 0.5 * kTrimWidth * m.height) < 0.9 * kTrimWidth * m.height ||
       (q.y > Joint(J::kNeck).y - 0.2 * TrunkLength() && Neck(p) < 0.05 * TrunkLength())) {
-    return 1.25 * kTrimWidth * m.height;
+    return 1.45 * kTrimWidth * m.height;
   }
   const Vec3 from_wrist = (q - Joint(J::kLeftHand)) / m.hand_length;
   if (from_wrist.x > 0.0) return 0.08 * m.hand_length;
   if (q.y > ChinHeight() - 0.02 * m.head_height && q.x < m.head_width) {
     return head_.LongestEdge(p);
   }
-  if (q.y < 1.3 * m.ankle_height) return 0.10 * m.foot_length;
+  if (q.y < 1.6 * m.ankle_height) return 0.092 * m.foot_length;
   return body;
 }
 
