@@ -165,11 +165,11 @@ LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const
   const Vec3 axis = chord / length;
   const Vec3 mid = Perpendicular(placed.mid - chain.base_ws, axis);
   const Vec3 wanted = Perpendicular(mid_target - chain.base_ws, axis);
-  const double angle =
-      AngleAbout(axis, mid, wanted) * Trust(glm::length(wanted), 0.1 * chain.Reach());
+  const double angle = AngleAbout(axis, mid, wanted);
+  const double trust = Trust(glm::length(wanted), 0.1 * chain.Reach());
   const double flexion = MeasureFlexion(chain, reached.mid).angle;
   reached.base =
-      TwistBase(chain, reached.base, axis, chain.swivel_share * BoundTwist(angle, flexion));
+      TwistBase(chain, reached.base, axis, chain.swivel_share * trust * BoundTwist(angle, flexion));
   return reached;
 }
 
@@ -193,9 +193,11 @@ LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const
   if (end_distance < 1e-9) return reached;
   const Vec3 wanted = to_end / end_distance;
   const Flexion flexion = MeasureFlexion(chain, reached.mid);
-  const double twist = AngleAbout(upper, placed.end - placed.mid, wanted) *
-                       Trust(glm::length(Perpendicular(to_end, upper)), 0.05 * chain.Reach());
-  reached.base = TwistBase(chain, reached.base, upper, BoundTwist(twist, flexion.angle));
+  // The bound is zero where the twist changes sides; what it is multiplied by stays outside.
+  const double twist =
+      Trust(glm::length(Perpendicular(to_end, upper)), 0.05 * chain.Reach()) *
+      BoundTwist(AngleAbout(upper, placed.end - placed.mid, wanted), flexion.angle);
+  reached.base = TwistBase(chain, reached.base, upper, twist);
 
   const double now = glm::dot(upper, glm::normalize(placed.end - placed.mid));
   const double cosine = glm::dot(upper, wanted);
