@@ -160,8 +160,10 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
         const double pull =
             kHandMoveDamping * touching / (1.0 - touching + kHandMoveDamping / most_weight);
         const double wanted = clearance - now.distance;
+        const double bounded = Bounded(wanted / (kFarContact * height));
+        // From inside even less: the way out turns over where faces are equally near.
         rows.Add(
-            {s, now.gradient, share * wanted * Bounded(wanted / (kFarContact * height)), pull});
+            {s, now.gradient, share * wanted * bounded * (wanted > 0.0 ? bounded : 1.0), pull});
       }
       if (now.distance >= most) continue;
       const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
