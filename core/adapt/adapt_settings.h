@@ -32,7 +32,7 @@ struct AdaptSettings {
   /// Metres of gap at which one surface counts as much for a leg as its captured joint angles; what
   /// stands is held by `stance_height` instead. 0: off, surfaces alone count, and thick or short
   /// legs are thrown about as they pass each other; small: crossed legs lose their contact.
-  double leg_gap = 0.006;
+  double leg_gap = 0.003;
   /// Metres added to the inverse importances of the arms in gamma (appendix C). 0: as published;
   /// larger: gamma turns slower and ends between both solutions.
   double gamma_softness = 0.020;

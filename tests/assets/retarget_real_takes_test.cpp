@@ -94,12 +94,15 @@ TEST(RetargetRealTake, AWalkGetsNoJumps) {
   ASSERT_TRUE(motion) << motion.error();
   const auto take = CaptureFromJointMotion(*motion);
   ASSERT_TRUE(take) << take.error();
-  for (const Body& avatar : {Child(), BigBelly()}) {
+  for (const Body& avatar : {Child(), BigBelly(), Stubby()}) {
     // The first frames of the file are a posture of rest and the ringing of a filter.
     const Outcome outcome = Retarget(*take, 30, 330, avatar);
     EXPECT_LT(Degrees(outcome.method.largest_added_step), 6.0)
         << avatar.name << " frame " << outcome.method.largest_added_step_frame;
-    EXPECT_LT(outcome.method.foot_height_error.Mean(), 0.003) << avatar.name;
+    // The take's floor is a little off, and what is left of it counts by the root's height, which
+    // is another share of a stubby body.
+    EXPECT_LT(outcome.method.foot_height_error.Mean(), avatar.name == "stubby" ? 0.006 : 0.003)
+        << avatar.name;
   }
 }
 

@@ -57,6 +57,31 @@ TEST(LimbIk, StandardReachesTheEndAndReversedTheMiddle) {
   }
 }
 
+/// Targets that pass behind a limb, near its line, where the way round is undecided and what they
+/// say is worth little.
+TEST(LimbIk, TargetsPassingBehindDoNotTurnItOver) {
+  const LimbPosture posture = Bent(15.0);
+  const LimbChain chain = Arm(posture);
+  const LimbPlacement placed = Place(chain, posture);
+  const Vec3 upper = glm::normalize(placed.mid - chain.base_ws);
+  const Vec3 off = NormalizedOr(Perpendicular(placed.end - placed.mid, upper), Vec3{0.0});
+  const Vec3 aside = glm::cross(upper, off);
+  LimbPosture last_reversed;
+  LimbPosture last_standard;
+  for (int step = -40; step <= 40; ++step) {
+    const Vec3 away = -0.03 * off + 0.001 * step * aside;
+    const LimbPosture reversed =
+        ReversedIk(chain, posture, placed.mid, placed.mid + 0.25 * upper + away);
+    const LimbPosture standard = StandardIk(chain, posture, placed.mid + away * 3.0, placed.end);
+    if (step > -40) {
+      EXPECT_LT(Degrees(Difference(last_reversed, reversed)), 2.5) << step;
+      EXPECT_LT(Degrees(Difference(last_standard, standard)), 2.5) << step;
+    }
+    last_reversed = reversed;
+    last_standard = standard;
+  }
+}
+
 TEST(LimbIk, SingularTargetsKeepWhatTheyLeaveOpen) {
   const LimbPosture posture = Bent(60.0);
   const LimbChain chain = Arm(posture);

@@ -97,6 +97,20 @@ Body PoorRig() {
   return BodyFromSkeleton("poor rig", skeleton, 1.5);
 }
 
+Body Stubby() {
+  Body body = MakeBody("stubby", {1.40, 0.32, 0.28, 0.07, 0.06, 0.10, 0.09, 0.12, 1.6});
+  for (const auto& [joint, side] : {std::pair{J::kLeftUpperLeg, std::size_t{0}},
+                                    std::pair{J::kRightUpperLeg, std::size_t{1}}}) {
+    const double wider = body.skeleton.offset[Index(joint)].x;
+    body.skeleton.offset[Index(joint)].x += wider;
+    for (Vec3* p : {&body.surface.foot[side].heel_ms, &body.surface.foot[side].ball_ms,
+                    &body.surface.foot[side].toe_tip_ms}) {
+      p->x += wider;
+    }
+  }
+  return body;
+}
+
 std::vector<Body> StudyBodies() { return {Woman(), Child(), Alien(), BigBelly(), LongArms()}; }
 
 }  // namespace ego::test

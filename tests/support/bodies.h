@@ -30,6 +30,9 @@ Body Woman();
 Body BigBelly();
 Body LongArms();
 Body PoorRig();
+/// Cartoon proportions: legs of a fifth of its height under hips twice as wide, short thick arms, a
+/// round belly. No study body: most contacts are out of its reach.
+Body Stubby();
 std::vector<Body> StudyBodies();
 
 }  // namespace ego::test
