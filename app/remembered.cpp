@@ -27,6 +27,12 @@ void ForEachSwitch(View& view, Visit visit) {
   visit("contacts", view.overlays.contacts);
   visit("names", view.overlays.names);
   visit("trueSizes", view.overlays.true_sizes);
+  visit("symmetricPicking", view.calibrate.symmetric);
+  visit("loupe", view.calibrate.loupe);
+  visit("cameraFollows", view.calibrate.follow);
+  visit("guideSeen", view.calibrate.guide_seen);
+  visit("calibrateCrude", view.calibrate.look.crude);
+  visit("calibrateLimbs", view.calibrate.look.limbs);
 }
 
 template <class View, class Visit>
@@ -80,6 +86,15 @@ Result<Remembered> ReadRemembered(const fs::path& path) {
     const auto found = json.find(name);
     if (found != json.end() && found->is_boolean()) on = found->get<bool>();
   });
+  if (const auto found = json.find("navigation"); found != json.end() && found->is_string()) {
+    remembered.navigation =
+        NavigationNamed(found->get<std::string>()).value_or(remembered.navigation);
+  }
+  if (const auto found = json.find("recent"); found != json.end() && found->is_array()) {
+    for (const Json& file : *found) {
+      if (file.is_string()) remembered.recent.emplace_back(file.get<std::string>());
+    }
+  }
   return remembered;
 }
 
@@ -92,6 +107,9 @@ Result<void> WriteRemembered(const fs::path& path, const Remembered& remembered)
   json["height"] = remembered.window_height;
   ForEachSize(remembered, [&](const char* name, float size) { json[name] = size; });
   ForEachSwitch(remembered, [&](const char* name, bool on) { json[name] = on; });
+  json["navigation"] = Name(remembered.navigation);
+  json["recent"] = Json::array();
+  for (const fs::path& file : remembered.recent) json["recent"].push_back(file.string());
   return WriteFileAtomically(path, json.dump(2) + "\n");
 }
 

@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "app/calibrate/workspace.h"
 #include "app/panels/frame_layout.h"
+#include "app/view/navigation.h"
 #include "app/view/stage_picture.h"
 #include "core/base/result.h"
 
@@ -16,6 +19,9 @@ struct Remembered {
   int window_height = 900;
   FrameLayout layout;
   Overlays overlays;
+  Navigation navigation = Navigation::kStudio;
+  CalibrateHabits calibrate;
+  std::vector<std::filesystem::path> recent;  // avatar files, newest first
 };
 
 /// Where it is kept: egostudio/window.json in $XDG_CONFIG_HOME, or in ~/.config where that is not

@@ -10,7 +10,6 @@
 #include "app/commands/command.h"
 #include "app/commands/terminal.h"
 #include "app/loading/file_kind.h"
-#include "app/panels/panels.h"
 #include "app/view/fonts.h"
 #include "core/baselines/retarget_method.h"
 
@@ -181,45 +180,68 @@ void Studio::PassMembers() {
   picture_.SetMembers(std::move(members));
 }
 
+void Studio::TakeIn(LoadedTake take) {
+  const std::uint64_t id = next_id_++;
+  Say(Message::Kind::kInfo, "Opened " + take.name + ".");
+  takes_.push_back({id, std::move(take)});
+  SelectTake(id);
+  if (takes_.size() > 1) return;
+  wants_playing_ = true;
+  stage_.Play(true);
+}
+
+void Studio::TakeIn(LoadedAvatar avatar) {
+  const std::uint64_t id = next_id_++;
+  Say(Message::Kind::kInfo, "Opened " + avatar.name + ".");
+  const std::filesystem::path path = avatar.path;
+  avatars_.push_back({id, std::move(avatar), look::AvatarColor(next_color_++), true});
+  PassMembers();
+  RebuildScene();
+  if (!path.empty()) AddRecent(path);
+  const bool asked = !path.empty() && path == calibrate_when_open_;
+  // Whoever is in the Calibrate workspace already waits for the first that comes.
+  const bool awaited = workspace_ == Workspace::kCalibrate && calibrate_.avatar_id() == 0;
+  if (asked) calibrate_when_open_.clear();
+  if (asked || awaited) Calibrate(id);
+}
+
 bool Studio::TakeInLoaded() {
   bool any = false;
   while (std::optional<Result<BackgroundLoader::Loaded>> result = loader_.Take()) {
     any = true;
     if (!*result) {
       Say(Message::Kind::kError, result->error());
+      calibrate_when_open_.clear();
       continue;
     }
-    const std::uint64_t id = next_id_++;
-    if (auto* take = std::get_if<LoadedTake>(&**result)) {
-      Say(Message::Kind::kInfo, "Opened " + take->name + ".");
-      takes_.push_back({id, std::move(*take)});
-      SelectTake(id);
-      if (takes_.size() == 1) {
-        wants_playing_ = true;
-        stage_.Play(true);
-      }
-    } else {
-      LoadedAvatar& avatar = std::get<LoadedAvatar>(**result);
-      Say(Message::Kind::kInfo, "Opened " + avatar.name + ".");
-      avatars_.push_back({id, std::move(avatar), look::AvatarColor(next_color_++), true});
-      PassMembers();
-      RebuildScene();
-    }
+    std::visit(
+        [this]<class T>(T& loaded) {
+          if constexpr (std::is_same_v<T, std::shared_ptr<CalibrationSession>>) {
+            calibrate_.TakeIn(*this, std::move(loaded));
+          } else if constexpr (std::is_same_v<T, std::shared_ptr<TestPostures>>) {
+            calibrate_.TakeIn(std::move(loaded));
+          } else {
+            TakeIn(std::move(loaded));
+          }
+        },
+        **result);
   }
+  // Given up or failed: the place says so and can be asked again.
+  if (calibrate_.opening() && !loader_.activity()) calibrate_.Forget(calibrate_.avatar_id());
   return any;
 }
 
-void Studio::EnterWorkspace(Workspace workspace) { workspace_ = workspace; }
-
-void Studio::AskToClose() { window_->Close(); }
-
 Remembered Studio::ToRemember() const {
-  return {window_->width(), window_->height(), layout_, overlays_};
+  return {window_->width(), window_->height(), layout_, overlays_,
+          navigation_,      calibrate_.habits, recent_};
 }
 
 void Studio::Restore(const Remembered& remembered) {
   layout_ = remembered.layout;
   overlays_ = remembered.overlays;
+  navigation_ = remembered.navigation;
+  calibrate_.habits = remembered.calibrate;
+  recent_ = remembered.recent;
 }
 
 void Studio::MeasureRate() {
@@ -239,7 +261,7 @@ void Studio::RunFrame() {
   window_->Poll(Patience());
   const auto now = std::chrono::steady_clock::now();
   bool changed = TakeInLoaded();
-  if (!window_->dropped().empty()) OpenFiles(window_->dropped());
+  for (const std::filesystem::path& file : window_->dropped()) OpenDropped(file);
   HandleKeys();
   if (window_->TakeCloseRequest()) AskToClose();
   changed |= stage_.Fetch();
@@ -247,6 +269,7 @@ void Studio::RunFrame() {
     message_.reset();
     changed = true;
   }
+  if (workspace_ == Workspace::kCalibrate) changed |= calibrate_.Advance(*this, now);
   if (changed || window_->had_input()) last_change_ = now;
   if (now - last_change_ > kSettles && !loader_.activity()) return;
   if (window_->width() == 0 || window_->height() == 0) {
@@ -255,17 +278,14 @@ void Studio::RunFrame() {
   }
   layout_.Divide(static_cast<float>(window_->width()), static_cast<float>(window_->height()),
                  gui_.scale());
+  ShowTitle();
   gui_.Begin();
-  ShowViewport(*this);
-  ShowTopBar(*this);
-  ShowLeftRail(*this);
-  ShowInspector(*this);
-  ShowTimeline(*this);
-  ShowStatusBar(*this);
-  ShowSplitters(*this);
-  ShowKeys(*this);
-  palette_.Show(*this);
-  DrawStage();
+  ShowPanels();
+  if (workspace_ == Workspace::kCalibrate) {
+    calibrate_.Draw(*this);
+  } else {
+    DrawStage();
+  }
   gui_.End();
   window_->Present();
   MeasureRate();
@@ -296,6 +316,7 @@ int RunStudio(const std::vector<std::filesystem::path>& files) {
     });
   };
   studio.OpenFiles(files);
+  studio.FindLeftBehind();
   if (!any(FileKind::kTake)) studio.OpenDemoTake();
   if (!any(FileKind::kAvatar)) studio.OpenDemoCast();
   while (!studio.ShouldClose()) studio.RunFrame();

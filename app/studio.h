@@ -11,11 +11,13 @@
 #include <variant>
 #include <vector>
 
+#include "app/calibrate/workspace.h"
 #include "app/loading/background_loader.h"
 #include "app/panels/frame_layout.h"
 #include "app/panels/palette.h"
 #include "app/remembered.h"
 #include "app/stage/stage_thread.h"
+#include "app/view/navigation.h"
 #include "app/view/stage_picture.h"
 #include "app/window/gui.h"
 #include "app/window/window.h"
@@ -84,9 +86,30 @@ class Studio {
   // Where one works.
   Workspace workspace() const { return workspace_; }
   void EnterWorkspace(Workspace workspace);
+  CalibrateWorkspace& calibrate() { return calibrate_; }
+  const CalibrateWorkspace& calibrate() const { return calibrate_; }
+  /// Turns to the Calibrate workspace with this avatar.
+  void Calibrate(std::uint64_t avatar_id);
+  /// Opens an avatar file, or finds it among those that are open, and calibrates it.
+  void CalibrateFile(const std::filesystem::path& path);
+  /// Called by the Calibrate workspace: what it needs is made in the background.
+  void OpenForCalibration(std::uint64_t avatar_id);
+  void PrepareReference();
+  /// Gives the stage what a calibration makes of an avatar now.
+  void ReplaceAvatar(std::uint64_t avatar_id, const CalibrationEditor& editor);
+  /// Avatar files opened lately, newest first.
+  const std::vector<std::filesystem::path>& recent() const { return recent_; }
+
   Palette& palette() { return palette_; }
   /// Closes the window, or asks first where something would be lost.
   void AskToClose();
+  bool asks_to_close = false;
+  void SaveAndClose();
+  void CloseWithoutSaving();
+  /// Picks that the last session could not save.
+  const std::vector<Recovery>& left_behind() const { return left_behind_; }
+  void FindLeftBehind();
+  void ForgetLeftBehind() { left_behind_.clear(); }
 
   // What plays.
   StageThread& stage() { return stage_; }
@@ -104,9 +127,11 @@ class Studio {
   // How it is seen.
   Overlays& overlays() { return overlays_; }
   Camera& camera() { return camera_; }
+  Navigation& navigation() { return navigation_; }
   std::optional<FigureRole>& selection() { return selection_; }
   StagePicture& picture() { return picture_; }
   FrameLayout& layout() { return layout_; }
+  const FrameLayout& layout() const { return layout_; }
   /// Keeps the studio from framing the stage by itself when avatars come and go.
   void CameraMovedByHand() { frame_when_ready_ = false; }
   void FrameAll();
@@ -122,6 +147,7 @@ class Studio {
   void DismissMessage() { message_.reset(); }
   double draw_hz() const { return draw_hz_; }
   Window& window() { return *window_; }
+  const Window& window() const { return *window_; }
   Remembered ToRemember() const;
   void Restore(const Remembered& remembered);
 
@@ -131,6 +157,12 @@ class Studio {
 
  private:
   bool TakeInLoaded();
+  void TakeIn(LoadedTake take);
+  void TakeIn(LoadedAvatar avatar);
+  void ShowPanels();
+  void ShowTitle();
+  void OpenDropped(const std::filesystem::path& file);
+  void AddRecent(const std::filesystem::path& file);
   void HandleKeys();
   void DrawStage();
   void FrameWhenChanged();
@@ -144,6 +176,7 @@ class Studio {
   std::unique_ptr<Window> window_;
   Gui gui_;
   StagePicture picture_;
+  CalibrateWorkspace calibrate_;
 
   std::vector<TakeEntry> takes_;
   std::vector<AvatarEntry> avatars_;
@@ -153,6 +186,11 @@ class Studio {
   std::vector<std::variant<TakeEntry, AvatarEntry>> removed_;
 
   Workspace workspace_ = Workspace::kPerform;
+  Navigation navigation_ = Navigation::kStudio;
+  std::vector<std::filesystem::path> recent_;
+  std::filesystem::path calibrate_when_open_;  // an avatar file that is on its way
+  std::string title_;
+  std::vector<Recovery> left_behind_;
   Palette palette_;
   Overlays overlays_;
   Camera camera_;

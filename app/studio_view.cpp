@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The half of the studio that the eye and the keyboard meet.
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -92,15 +93,13 @@ void Studio::HandleKeys() {
     last_change_ = std::chrono::steady_clock::now();
     // What is written into a field, or into the palette, means nothing else.
     if (ImGui::GetIO().WantTextInput || palette_.is_open()) return;
+    if (asks_to_close) {
+      if (press.key == GLFW_KEY_ESCAPE) asks_to_close = false;
+      if (press.key == GLFW_KEY_ENTER) SaveAndClose();
+      continue;
+    }
     RunPressed(press, *this);
   }
-}
-
-std::vector<std::pair<std::string, std::string>> Studio::MouseHelp() const {
-  return {{"Drag", "turn"},
-          {"Shift+drag", "move, as does the right button"},
-          {"Wheel", "closer, farther"},
-          {"Click", "select a figure"}};
 }
 
 }  // namespace ego

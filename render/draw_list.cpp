@@ -183,6 +183,7 @@ void DrawList::AddCharacter(const Figure& figure, const StageCharacter& characte
 
   const bool see_through = shown.opacity < 0.999f;
   Group solid = Begin(see_through ? Pass::kTranslucent : Pass::kOpaque, figure);
+  solid.edges = shown.edges;
   const std::size_t first_vertex = positions.size();
   std::vector<Mesh> blended;
   for (std::size_t p = 0; p < character.parts.size(); ++p) {

@@ -61,6 +61,7 @@ struct DrawList {
     double distance = 0.0;  // from the camera
     bool hides_itself = true;
     bool casts_shadow = true;  // and lies in that of others
+    bool edges = false;        // drawn as lines as well
     glm::vec4 rim{0.0f};
     std::uint32_t first_mesh = 0, mesh_count = 0;
   };

@@ -70,6 +70,7 @@ std::span<const Action> Actions() {
     std::vector<Action> actions;
     AddCommonActions(actions);
     AddPerformActions(actions);
+    AddCalibrateActions(actions);
     return actions;
   }();
   return all;

@@ -40,6 +40,7 @@ std::span<const Action> Actions();
 /// What makes up the list, one function for each workspace.
 void AddCommonActions(std::vector<Action>& actions);
 void AddPerformActions(std::vector<Action>& actions);
+void AddCalibrateActions(std::vector<Action>& actions);
 
 /// Whether it can be done now: in this workspace, and possible.
 bool CanRun(const Action& action, const Studio& studio);

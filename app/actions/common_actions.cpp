@@ -12,6 +12,10 @@ void AddCommonActions(std::vector<Action>& actions) {
     actions.push_back(
         {name, "Studio", Action::Where::kEverywhere, std::move(keys), std::move(run)});
   };
+  add("Calibrate avatars", {{GLFW_KEY_1, true}},
+      [](Studio& s) { s.EnterWorkspace(Workspace::kCalibrate); });
+  add("Perform on stage", {{GLFW_KEY_2, true}},
+      [](Studio& s) { s.EnterWorkspace(Workspace::kPerform); });
   add("Search all commands", {{GLFW_KEY_P, true}, {GLFW_KEY_P, true, true}, {GLFW_KEY_K, true}},
       [](Studio& s) { s.palette().Toggle(); });
   add("Show all keys", {{GLFW_KEY_SLASH}}, [](Studio& s) { s.show_keys = !s.show_keys; });

@@ -71,6 +71,10 @@ void AddPerformActions(std::vector<Action>& actions) {
   add(
       "Bring back what was removed", {{GLFW_KEY_Z, true}}, [](Studio& s) { s.UndoRemove(); },
       [](const Studio& s) { return s.can_undo(); });
+  add(
+      "Calibrate the selected avatar", {{GLFW_KEY_E}},
+      [](Studio& s) { s.Calibrate(s.selected_avatar()->id); },
+      [](const Studio& s) { return s.selected_avatar() != nullptr; });
   add("Fold panels away", {{GLFW_KEY_TAB}}, [](Studio& s) { s.layout().ToggleAll(); });
   add("Drop the selection", {{GLFW_KEY_ESCAPE}}, [](Studio& s) {
     if (!std::exchange(s.show_keys, false)) s.selection().reset();

@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -19,11 +20,15 @@
 
 namespace ego {
 
+class CalibrationSession;
+class TestPostures;
+
 /// Loads one thing after another on a thread of its own and hands over what is finished. All
 /// functions are for the owner's thread; none waits for loading but the destructor, which cancels.
 class BackgroundLoader {
  public:
-  using Loaded = std::variant<LoadedTake, LoadedAvatar>;
+  using Loaded = std::variant<LoadedTake, LoadedAvatar, std::shared_ptr<CalibrationSession>,
+                              std::shared_ptr<TestPostures>>;
   using Work = std::function<Result<Loaded>(const Progress&)>;
 
   BackgroundLoader();

@@ -92,7 +92,7 @@ void ShowJointMap(const Character& character) {
   }
 }
 
-void ShowAvatar(const AvatarEntry& entry) {
+void ShowAvatar(Studio& studio, const AvatarEntry& entry) {
   const LoadedAvatar& avatar = entry.avatar;
   const Character& character = *avatar.character;
   Section(avatar.name.c_str());
@@ -102,6 +102,8 @@ void ShowAvatar(const AvatarEntry& entry) {
   Fact("Height", Number("%.2f", avatar.body->height), "m");
   Fact("Triangles", std::to_string(triangles));
   ShowCalibration(avatar);
+  if (ImGui::Button("Calibrate")) studio.Calibrate(entry.id);
+  Tip("See and mend its points in the Calibrate workspace (E)");
   ShowJointMap(character);
   ShowLengths(avatar.body->skeleton);
   ShowNotes(avatar.notes);
@@ -113,7 +115,7 @@ void ShowInspector(Studio& studio) {
   if (BeginPanel("inspector", studio.layout().inspector, look::kPanel)) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {Px(8.0f), Px(4.0f)});
     if (const AvatarEntry* avatar = studio.selected_avatar()) {
-      ShowAvatar(*avatar);
+      ShowAvatar(studio, *avatar);
     } else if (const TakeEntry* take = studio.current_take()) {
       ShowTake(*take);
     } else {

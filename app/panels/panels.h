@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "app/panels/frame_layout.h"
+
 namespace ego {
 
 class Studio;
@@ -24,5 +26,16 @@ void ShowViewport(Studio& studio);
 void ShowSplitters(Studio& studio);
 /// The list of all keys.
 void ShowKeys(Studio& studio);
+/// What is asked before the window closes, and what the last session left behind.
+void ShowQuestions(Studio& studio);
+
+// Pieces that both workspaces show.
+
+/// The last error, at the lower edge of the picture until it is dismissed.
+void ShowError(Studio& studio, const Rect& view);
+/// Whose mouse habits the camera follows, at the lower left corner of the picture.
+void ShowNavigationMenu(Studio& studio, const Rect& view);
+/// Avatar files opened lately, one button each; nothing where there are none.
+void ShowRecentFiles(Studio& studio);
 
 }  // namespace ego

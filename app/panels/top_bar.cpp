@@ -33,6 +33,87 @@ MethodWords WordsOf(std::string_view name) {
   return {std::string(name), std::string(name)};
 }
 
+// A tab of the window; the one that is shown is underlined. A mark tells of unsaved work.
+void Tab(Studio& studio, const char* label, const char* tip, Workspace workspace, bool unsaved) {
+  const bool on = studio.workspace() == workspace;
+  ImGui::PushStyleColor(ImGuiCol_Text, Packed(on ? look::kText : look::kQuiet));
+  ImGui::PushStyleColor(ImGuiCol_Button, Packed(on ? look::kRaised : look::kPanel));
+  const std::string text = std::string(label) + (unsaved ? " *" : "") + "###" + label;
+  if (ImGui::Button(text.c_str())) studio.EnterWorkspace(workspace);
+  ImGui::PopStyleColor(2);
+  if (on) {
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {low.x + Px(8.0f), high.y}, {high.x - Px(8.0f), high.y + Px(2.0f)}, Packed(look::kAccent));
+  }
+  Tip(tip);
+}
+
+void ShowTabs(Studio& studio) {
+  const bool unsaved = !studio.calibrate().Unsaved().empty();
+  ImGui::SameLine(Px(108.0f));
+  Tab(studio, "Calibrate",
+      unsaved ? "Where an avatar's points lie (Ctrl+1); some are not saved yet"
+              : "Where an avatar's points lie (Ctrl+1)",
+      Workspace::kCalibrate, unsaved);
+  ImGui::SameLine(0.0f, Px(4.0f));
+  Tab(studio, "Perform", "Performer and avatars on stage (Ctrl+2)", Workspace::kPerform, false);
+}
+
+// A name that may be long: cut where the room ends, whole in its tool tip.
+void Name(const std::string& name, float left, float right) {
+  ImGui::SameLine(left);
+  ImVec2 at = ImGui::GetCursorScreenPos();
+  at.y += ImGui::GetStyle().FramePadding.y;
+  const float window = ImGui::GetWindowPos().x;
+  const ImVec4 clip{at.x, at.y, window + right, at.y + ImGui::GetFrameHeight()};
+  const float width = std::min(ImGui::CalcTextSize(name.c_str()).x, right - left);
+  if (width <= 0.0f) return;
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
+                                      Packed(look::kText), name.c_str(), nullptr, 0.0f, &clip);
+  ImGui::Dummy({width, ImGui::GetTextLineHeight()});
+  if (ImGui::CalcTextSize(name.c_str()).x > width) Tip(name.c_str());
+}
+
+float NameLeft(Studio& studio) {
+  return std::max(studio.layout().viewport.x + Px(12.0f), Px(320.0f));
+}
+
+void ShowAvatarName(Studio& studio) {
+  const CalibrationSession* session = studio.calibrate().session();
+  if (!session) return;
+  Name(session->name() + (session->editor().Unsaved() ? "*" : ""), NameLeft(studio),
+       ImGui::GetWindowWidth() - Px(12.0f));
+}
+
+void ShowTakeAndMethod(Studio& studio) {
+  const auto names = RetargetMethodNames();
+  ImGui::PushFont(Gui::Current().fonts().small);
+  float width = 0.0f;
+  for (const std::string_view name : names) {
+    width += ImGui::CalcTextSize(WordsOf(name).label.c_str()).x +
+             2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
+  }
+  const float label = ImGui::CalcTextSize("Method").x;
+  const float left = ImGui::GetWindowWidth() - width - label - Px(12.0f);
+  ImGui::PopFont();
+  if (const TakeEntry* take = studio.current_take()) {
+    Name(take->take.name, NameLeft(studio), left - Px(16.0f));
+  }
+  ImGui::PushFont(Gui::Current().fonts().small);
+  ImGui::SameLine(left);
+  ImGui::TextColored({look::kQuiet.x, look::kQuiet.y, look::kQuiet.z, 1.0f}, "Method");
+  ImGui::PopFont();
+  for (const std::string_view name : names) {
+    ImGui::SameLine();
+    const MethodWords words = WordsOf(name);
+    if (Toggle(words.label.c_str(), words.tip.c_str(), studio.method() == name)) {
+      studio.SetMethod(std::string(name));
+    }
+  }
+}
+
 }  // namespace
 
 void ShowTopBar(Studio& studio) {
@@ -42,28 +123,11 @@ void ShowTopBar(Studio& studio) {
     ImGui::PushFont(Gui::Current().fonts().section);
     ImGui::TextUnformatted("Egostudio");
     ImGui::PopFont();
-    ImGui::SameLine(std::max(studio.layout().viewport.x + Px(12.0f), Px(120.0f)));
-    if (const TakeEntry* take = studio.current_take()) {
-      ImGui::TextUnformatted(take->take.name.c_str());
-    }
-
-    const auto names = RetargetMethodNames();
-    ImGui::PushFont(Gui::Current().fonts().small);
-    float width = 0.0f;
-    for (const std::string_view name : names) {
-      width += ImGui::CalcTextSize(WordsOf(name).label.c_str()).x +
-               2.0f * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
-    }
-    const float label = ImGui::CalcTextSize("Method").x;
-    ImGui::SameLine(ImGui::GetWindowWidth() - width - label - Px(12.0f));
-    ImGui::TextColored({look::kQuiet.x, look::kQuiet.y, look::kQuiet.z, 1.0f}, "Method");
-    ImGui::PopFont();
-    for (const std::string_view name : names) {
-      ImGui::SameLine();
-      const MethodWords words = WordsOf(name);
-      if (Toggle(words.label.c_str(), words.tip.c_str(), studio.method() == name)) {
-        studio.SetMethod(std::string(name));
-      }
+    ShowTabs(studio);
+    if (studio.workspace() == Workspace::kPerform) {
+      ShowTakeAndMethod(studio);
+    } else {
+      ShowAvatarName(studio);
     }
   }
   EndPanel();

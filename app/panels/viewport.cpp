@@ -67,14 +67,15 @@ void MoveCamera(Studio& studio, const Rect& rect, ViewportSize size) {
     studio.CameraMovedByHand();
   }
   if (ImGui::IsItemActive() && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
-    const Vec2 drag(io.MouseDelta.x, io.MouseDelta.y);
-    const bool right = io.MouseDown[ImGuiMouseButton_Right];
-    if (right || io.KeyShift) {
-      studio.camera().Pan(drag, size);
-    } else {
-      studio.camera().Orbit(drag, size);
-    }
-    studio.CameraMovedByHand();
+    const Held held{io.MouseDown[ImGuiMouseButton_Left],
+                    io.MouseDown[ImGuiMouseButton_Right],
+                    io.MouseDown[ImGuiMouseButton_Middle],
+                    io.KeyShift,
+                    io.KeyCtrl,
+                    io.KeyAlt};
+    const CameraMove move = MoveOf(studio.navigation(), held);
+    Apply(move, {io.MouseDelta.x, io.MouseDelta.y}, pointer, size, studio.camera());
+    if (move != CameraMove::kNone) studio.CameraMovedByHand();
   }
   const bool clicked =
       ImGui::IsItemDeactivated() && io.MouseReleased[ImGuiMouseButton_Left] &&
@@ -114,26 +115,6 @@ void ShowOverlayStrip(Studio& studio, const Rect& view) {
   }
 }
 
-// An error stands where the eye is until it is read.
-void ShowError(Studio& studio, const Rect& view) {
-  if (!studio.message() || studio.message()->kind != Message::Kind::kError) return;
-  const std::string& text = studio.message()->text;
-  const float width = std::min(Px(560.0f), view.width - Px(32.0f));
-  const float wrap = width - Px(64.0f);
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-  const float height = size.y + Px(24.0f);
-  const ImVec2 corner{view.x + 0.5f * (view.width - width),
-                      view.y + view.height - height - Px(16.0f)};
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 end{corner.x + width, corner.y + height};
-  list.AddRectFilled(corner, end, Packed(look::kRaised), Px(6.0f));
-  list.AddRectFilled(corner, {corner.x + Px(4.0f), end.y}, Packed(look::kBad), Px(2.0f));
-  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + Px(16.0f), corner.y + Px(12.0f)},
-               Packed(look::kText), text.c_str(), nullptr, wrap);
-  ImGui::SetCursorScreenPos({end.x - Px(36.0f), corner.y + Px(8.0f)});
-  if (SignButton("dismiss", Sign::kCross, "Dismiss")) studio.DismissMessage();
-}
-
 void ShowEmptyState(Studio& studio, const Rect& view) {
   const char* text =
       studio.loader().activity() ? "Preparing the stage" : "Drop takes and avatars here";
@@ -153,15 +134,7 @@ void ShowEmptyState(Studio& studio, const Rect& view) {
 
 void ShowViewport(Studio& studio) {
   const Rect view = studio.layout().viewport;
-  ImGui::SetNextWindowPos({view.x, view.y});
-  ImGui::SetNextWindowSize({view.width, view.height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-  ImGui::Begin("viewport", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
-                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
-                   ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::PopStyleVar();
+  BeginViewport(view);
   const ViewportSize size{static_cast<int>(view.width), static_cast<int>(view.height)};
   ImGui::InvisibleButton("stage", {view.width, view.height},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -170,6 +143,7 @@ void ShowViewport(Studio& studio) {
   MoveCamera(studio, view, size);
   ShowOverlayStrip(studio, view);
   if (!studio.current_take() || !studio.frame().scene) ShowEmptyState(studio, view);
+  ShowNavigationMenu(studio, view);
   ShowError(studio, view);
   ImGui::End();
 }

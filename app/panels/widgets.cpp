@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -94,7 +95,47 @@ bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, flo
   return rect.width >= 2.0f && rect.height >= 2.0f;
 }
 
+void BeginViewport(const Rect& rect) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.width, rect.height});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+  ImGui::Begin("viewport", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+}
+
+void BeginCard(const char* name, const Rect& within, float width, float height) {
+  const float w = std::min(Px(width), within.width - Px(16.0f));
+  const float h = std::min(Px(height), within.height - Px(16.0f));
+  const Rect rect{std::floor(within.x + 0.5f * (within.width - w)),
+                  std::floor(within.y + 0.45f * (within.height - h)), w, h};
+  ImGui::SetNextWindowFocus();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, Px(8.0f));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, Px(1.0f));
+  BeginPanel(name, rect, look::kRaised, 16.0f, true);
+  ImGui::PopStyleVar(2);
+  ImGui::PushStyleColor(ImGuiCol_Button, Packed(look::kLine));
+}
+
+bool PrimaryButton(const char* label, float width) {
+  ImGui::PushStyleColor(ImGuiCol_Button, Packed(look::kAccent));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, Packed(look::kAccent, 0.85f));
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, Packed(look::kAccent, 0.7f));
+  ImGui::PushStyleColor(ImGuiCol_Text, Packed(look::kRoom));
+  const bool pressed = ImGui::Button(label, {width, 0.0f});
+  ImGui::PopStyleColor(4);
+  return pressed;
+}
+
 void EndPanel() { ImGui::End(); }
+
+void EndCard() {
+  ImGui::PopStyleColor();
+  ImGui::End();
+}
 
 void Section(const char* title) {
   ImGui::Dummy({0.0f, Px(2.0f)});

@@ -21,6 +21,14 @@ bool BeginPanel(const char* name, const Rect& rect, const glm::vec3& ground, flo
                 bool above_others = false);
 void EndPanel();
 
+/// Begins the invisible panel under which the picture lies; ends with ImGui::End.
+void BeginViewport(const Rect& rect);
+/// Begins a card of this size (at scale 1) in the middle of a rectangle, above everything else.
+void BeginCard(const char* name, const Rect& within, float width, float height);
+void EndCard();
+/// The one button that one would press.
+bool PrimaryButton(const char* label, float width = 0.0f);
+
 /// A heading of a section, with room above it.
 void Section(const char* title);
 /// Text in the quiet colour, wrapped at the panel's edge.

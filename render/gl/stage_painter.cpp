@@ -18,6 +18,7 @@ constexpr float kVignette = 0.30f;      // darkening in the corners
 constexpr int kShadowUnit = 1;
 constexpr float kFloorInShadow = 0.42f;  // of the light that the floor and its lines keep
 constexpr float kLineInShadow = 0.35f;
+constexpr float kEdgeStrength = 0.55f;  // of a mesh's edges over its skin
 
 // sRGB of linear light.
 glm::vec3 Encoded(const glm::vec3& linear) {
@@ -155,6 +156,30 @@ void StagePainter::DrawGroups(Pass pass) {
   glFrontFace(GL_CCW);
 }
 
+// Over the skin by a hair, so that edges behind it stay hidden and those on it are whole.
+void StagePainter::DrawEdges() {
+  programs_.edge.Use();
+  programs_.edge.Set("view_projection", view_projection_);
+  programs_.edge.Set("color", glm::vec4(look::kRoom, kEdgeStrength));
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glEnable(GL_POLYGON_OFFSET_LINE);
+  glPolygonOffset(-1.0f, -2.0f);
+  glDepthMask(GL_FALSE);
+  glEnable(GL_CULL_FACE);
+  for (const DrawList::Group& group : list_.groups) {
+    if (!group.edges) continue;
+    for (std::uint32_t i = 0; i < group.mesh_count; ++i) {
+      const DrawList::Mesh& mesh = list_.meshes[group.first_mesh + i];
+      glFrontFace(mesh.mirrored ? GL_CW : GL_CCW);
+      buffers_.DrawMesh(mesh, false, BuffersOf(mesh.character));
+    }
+  }
+  glFrontFace(GL_CCW);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_POLYGON_OFFSET_LINE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
 void StagePainter::DrawFloorAndRoom(const StageView& view, const DrawTarget& target) {
   const glm::vec2 center(static_cast<float>(target.x) + 0.5f * static_cast<float>(target.width),
                          static_cast<float>(target.y) + 0.5f * static_cast<float>(target.height));
@@ -265,6 +290,7 @@ void StagePainter::DrawScene(const StageView& view, const DrawTarget& target) {
   DrawFloorAndRoom(view, target);
   glEnable(GL_BLEND);
   DrawGroups(Pass::kTranslucent);
+  DrawEdges();
   glDepthRange(0.0, 0.02);
   DrawGroups(Pass::kThrough);
   glDepthRange(0.0, 1.0);

@@ -40,6 +40,7 @@ class StagePainter {
   void DrawShadows();
   void DrawGroup(const DrawList::Group& group, Draws draws, const glm::mat4& clip);
   void DrawGroups(Pass pass);
+  void DrawEdges();
   void DrawFloorAndRoom(const StageView& view, const DrawTarget& target);
   void DrawGlows(const Camera& camera);
   void DrawPlates(const StageView& view, const DrawTarget& target);

@@ -15,7 +15,7 @@ Result<StagePrograms> StagePrograms::Build() {
     const char* fragment;
     std::string_view define;
   };
-  const std::array<Recipe, 9> recipes = {{
+  const std::array<Recipe, 10> recipes = {{
       {&all.body, "body.vert", "body.frag", {}},
       {&all.body_textured, "body.vert", "body.frag", "TEXTURED"},
       {&all.depth, "depth.vert", "depth.frag", {}},
@@ -25,6 +25,7 @@ Result<StagePrograms> StagePrograms::Build() {
       {&all.room, "room.vert", "room.frag", {}},
       {&all.spot, "spot.vert", "spot.frag", {}},
       {&all.plate, "plate.vert", "plate.frag", {}},
+      {&all.edge, "depth.vert", "edge.frag", {}},
   }};
   for (const Recipe& r : recipes) {
     Result<Program> built =

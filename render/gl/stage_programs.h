@@ -10,7 +10,7 @@ namespace ego::gl {
 struct StagePrograms {
   Program body, body_textured;
   Program depth, depth_textured;
-  Program ground, ground_shadowed, room, spot, plate;
+  Program ground, ground_shadowed, room, spot, plate, edge;
 
   /// The sentence names the shader's file and line.
   static Result<StagePrograms> Build();

@@ -3,12 +3,7 @@
 #include "app/studio.h"
 
 #include <GLFW/glfw3.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -22,70 +17,17 @@
 
 #include "assets/gltf/character_file.h"
 #include "assets/takes/bvh.h"
-
-extern char** environ;
+#include "tests/app/virtual_display.h"
 
 namespace ego {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
-bool Installed(const char* program) {
-  return std::system((std::string("command -v ") + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-// An X server of the test's own, on a display number that the server finds free.
-class VirtualDisplay {
- public:
-  VirtualDisplay() {
-    int ends[2];
-    if (pipe(ends) != 0) return;
-    const std::string fd = std::to_string(ends[1]);
-    const char* argv[] = {"Xvfb", "-displayfd",  fd.c_str(), "-screen",
-                          "0",    "1280x720x24", "-noreset", nullptr};
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", 1, 0);
-    if (posix_spawnp(&server_, argv[0], &quiet, nullptr, const_cast<char**>(argv), environ) != 0) {
-      server_ = -1;
-    }
-    posix_spawn_file_actions_destroy(&quiet);
-    close(ends[1]);
-    char number[16] = {};
-    const ssize_t read_bytes = server_ > 0 ? read(ends[0], number, sizeof(number) - 1) : 0;
-    close(ends[0]);
-    std::string name(":");
-    name += std::to_string(std::atoi(number));
-    if (read_bytes > 0) setenv("DISPLAY", name.c_str(), 1);
-    ready_ = read_bytes > 0;
-  }
-  ~VirtualDisplay() {
-    if (server_ <= 0) return;
-    kill(server_, SIGTERM);
-    waitpid(server_, nullptr, 0);
-    unsetenv("DISPLAY");
-  }
-  bool ready() const { return ready_; }
-
- private:
-  pid_t server_ = -1;
-  bool ready_ = false;
-};
-
-// Returns when the events are with the server; the studio has not polled in between.
-void Do(const std::string& actions) {
-  ASSERT_EQ(std::system(("xdotool " + actions).c_str()), 0) << actions;
-}
-
-bool RunUntil(Studio& studio, const std::function<bool()>& wanted) {
-  const auto limit = std::chrono::steady_clock::now() + 60s;
-  while (std::chrono::steady_clock::now() < limit) {
-    studio.RunFrame();
-    if (wanted()) return true;
-  }
-  return false;
-}
+using test::Do;
+using test::Installed;
+using test::RunUntil;
+using test::VirtualDisplay;
 
 // All that was commanded has been done and fetched.
 bool Settled(Studio& studio) {
@@ -119,7 +61,7 @@ TEST(StudioWindow, PlaysStepsScrubsAndSurvivesBadFiles) {
   for (const char* program : {"Xvfb", "xdotool", "import"}) {
     if (!Installed(program)) GTEST_SKIP() << program << " is not installed";
   }
-  const VirtualDisplay display;
+  const VirtualDisplay display(1280, 720);
   ASSERT_TRUE(display.ready());
   const fs::path folder = fs::temp_directory_path() / "ego-studio-window-test";
   fs::remove_all(folder);
