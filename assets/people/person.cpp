@@ -163,10 +163,13 @@ Person MakeSoftPerson(const PersonParameters& parameters) {
   const ImplicitSurface surface = [&](const Vec3& p) { return shape(p); };
   FigureBuilder figure(parameters, shape.skeleton());
 
-  ClosedMesh mesh = Polygonise([&](const Vec3& p) { return shape.Lean(p); }, LatticeOf(shape));
+  ClosedMesh mesh = Polygonise([&](const Vec3& p) { return shape.Coarse(p); }, LatticeOf(shape));
   const double hand = shape.Joint(HumanoidJoint::kLeftHand).x;
   for (Vec3& p : mesh.positions) {
-    if (std::abs(p.x) > hand) p = DrawOnto(surface, p, 0.03 * parameters.hand_length, 3);
+    const bool ear = p.y > shape.ChinHeight() && std::abs(p.x) > 0.4 * parameters.head_width;
+    if (std::abs(p.x) < hand && !ear) continue;
+    const double bound = ear ? 0.04 * parameters.head_height : 0.03 * parameters.hand_length;
+    p = DrawOnto(surface, p, bound, 3);
   }
   Refine(
       surface, [&](const Vec3& p) { return shape.LongestEdge(p); }, 3, mesh);

@@ -96,7 +96,7 @@ double PersonHead::Face(const Vec3& q) const {
 
 Vec3 PersonHead::InEye(const Vec3& q) const { return (q - eye_) / eye_radius_; }
 
-double PersonHead::Skin(const Vec3& p) const {
+double PersonHead::Skin(const Vec3& p, bool plain_ears) const {
   const PersonParameters& m = parameters_;
   const double h = m.head_height;
   const double w = m.head_width / 2.0;
@@ -111,11 +111,12 @@ double PersonHead::Skin(const Vec3& p) const {
     // Turned outward and leaning back.
     Vec3 a = q - ear;
     a = {a.x + 0.30 * a.z, a.y, a.z + 0.22 * a.y - 0.30 * a.x};
+    const double thick = plain_ears ? 1.6 : 1.0;
     double shell =
-        Ellipsoid(a, {0.028 * h * e, 0.0, 0.0}, {0.046 * h * e, 0.135 * h * e, 0.088 * h * e});
+        Ellipsoid(a, {0.028 * h * e, 0.0, 0.0}, Vec3{0.046 * thick, 0.135, 0.088} * (h * e));
     const double hollow = Ellipsoid(a, {0.078 * h * e, 0.022 * h * e, 0.020 * h * e},
                                     {0.042 * h * e, 0.076 * h * e, 0.048 * h * e});
-    shell = SmoothIntersection(shell, -hollow, 0.018 * h * e);
+    if (!plain_ears) shell = SmoothIntersection(shell, -hollow, 0.018 * h * e);
     d = SmoothUnion(d, shell, 0.028 * h);
   }
   if (q.z < 0.3 * l || q.y < 0.0 || q.y > 0.75 * h) return d;
@@ -170,7 +171,7 @@ double PersonHead::Hair(const Vec3& p) const {
   double thick = 1.0;
   if (m.hair == Hair::kCrop) thick = 0.55;
   if (m.hair == Hair::kCurls) thick = 1.9;
-  double d = Ellipsoid(q, {0.0, top - half, -0.07 * l},
+  double d = Ellipsoid(q, {0.0, top - half, -0.05 * l},
                        {(1.0 + 0.075 * thick) * w, half, (0.99 + 0.045 * thick) * l});
 
   // The hairline: high over the forehead, down before the ears, up around them, low at the nape.

@@ -16,7 +16,10 @@ class PersonHead {
   PersonHead(const PersonParameters& parameters, double chin, double middle_z);
 
   /// Approximate signed distance to the skin, without hair and neck.
-  double Skin(const Vec3& p_ms) const;
+  double Skin(const Vec3& p_ms) const { return Skin(p_ms, false); }
+  /// The same; with `plain_ears` they are thick and without a hollow, so that a coarse lattice
+  /// catches them.
+  double Skin(const Vec3& p_ms, bool plain_ears) const;
   /// Of the hair's outside; far away where there is none.
   double Hair(const Vec3& p_ms) const;
   /// What a point on the head's skin is: skin, lips or a part of the eye.

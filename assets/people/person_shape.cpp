@@ -235,7 +235,7 @@ double PersonShape::Distance(const Vec3& p, double leaner) const {
   if (p.y < HipHeight() + 0.25 * length) d = SmoothUnion(d, Leg(p), 0.5 * m.upper_leg_radius);
   if (p.y > Joint(J::kNeck).y - 0.3 * length) {
     d = SmoothUnion(d, Neck(p), 0.10 * length);
-    d = SmoothUnion(d, Head(p), 0.10 * m.head_height);
+    d = SmoothUnion(d, head_.Skin(p, leaner > 0.0), 0.10 * m.head_height);
     d = SmoothUnion(d, head_.Hair(p), 0.012 * m.head_height);
   }
   return d;

@@ -25,8 +25,8 @@ class PersonShape {
 
   /// Approximate signed distance to the skin, negative inside.
   double operator()(const Vec3& p_ms) const { return Distance(p_ms, 0.0); }
-  /// The same with fingers so lean that a lattice tells them apart.
-  double Lean(const Vec3& p_ms) const { return Distance(p_ms, 0.008); }
+  /// The same with lean fingers and plain ears, which a coarse lattice tells apart and catches.
+  double Coarse(const Vec3& p_ms) const { return Distance(p_ms, 0.008); }
   /// Unit outward direction.
   Vec3 Normal(const Vec3& p_ms) const;
   /// Which material a point of the surface has.
