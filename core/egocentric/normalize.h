@@ -13,7 +13,7 @@ struct NormalizeSettings {
   /// Metres below which the importance of a surface no longer grows. Smaller: contacts are held
   /// harder by the mean itself, and marker noise of that size shakes the limb. Larger: contacts are
   /// left to the last correction (AdaptSettings::clearance_steps).
-  double surface_epsilon = 0.030;
+  double surface_epsilon = 0.020;
   /// The same for the ground. Feet stand still only when it is small.
   double ground_epsilon = 0.0004;
   /// The same for gamma of appendix C. Smaller: the elbow jumps when a wrist leaves a contact.
