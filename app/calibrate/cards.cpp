@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -118,6 +119,12 @@ void ShowJointList(Studio& studio, CalibrationSession& session) {
   ImGui::BeginChild("nodes");
   std::optional<std::optional<int>> chosen;
   const bool mended = session.calibration().joint_override[Index(joint)].has_value();
+  // The first that is found is what Enter takes.
+  bool enter = false;
+  for (const KeyPress& press : studio.window().presses()) {
+    enter |= press.key == GLFW_KEY_ENTER && work.joint_filter[0] != '\0';
+    if (press.key == GLFW_KEY_ESCAPE) ImGui::CloseCurrentPopup();
+  }
   if (mended && ImGui::Selectable("As the studio found it")) chosen = std::optional<int>();
   if (ImGui::Selectable("None: the rig has no such joint", character.map.Node(joint) < 0)) {
     chosen = -1;
@@ -128,7 +135,9 @@ void ShowJointList(Studio& studio, CalibrationSession& session) {
     ImGui::PushID(static_cast<int>(i));
     const bool current = character.map.Node(joint) == static_cast<int>(i);
     const std::string shown = name.empty() ? "node " + std::to_string(i) : name;
-    if (ImGui::Selectable(shown.c_str(), current)) chosen = static_cast<int>(i);
+    if (ImGui::Selectable(shown.c_str(), current) || std::exchange(enter, false)) {
+      chosen = static_cast<int>(i);
+    }
     ImGui::PopID();
   }
   ImGui::EndChild();

@@ -79,7 +79,7 @@ void ShowAvatarChoice(Studio& studio) {
     if (entry.id == work.avatar_id()) name = entry.avatar.name;
   }
   const CalibrationSession* session = work.session();
-  if (session && session->editor().Unsaved()) name += " *";
+  if (session && session->editor().Unsaved()) name.insert(0, "* ");
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::BeginCombo("##avatar", name.c_str(), ImGuiComboFlags_HeightLarge)) {
     for (const AvatarEntry& entry : studio.avatars()) {

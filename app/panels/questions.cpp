@@ -10,6 +10,21 @@
 namespace ego {
 namespace {
 
+// A long name with its end, which tells versions apart.
+std::string Shortened(const std::string& name) {
+  constexpr std::size_t kLongest = 44;
+  constexpr std::size_t kEnd = 16;
+  if (name.size() <= kLongest) return name;
+  const auto continues = [&](std::size_t i) {
+    return (static_cast<unsigned char>(name[i]) & 0xC0u) == 0x80u;  // UTF-8
+  };
+  std::size_t head = kLongest - kEnd;
+  std::size_t tail = name.size() - kEnd;
+  while (head > 0 && continues(head)) --head;
+  while (tail < name.size() && continues(tail)) ++tail;
+  return name.substr(0, head) + "\u2026" + name.substr(tail);
+}
+
 void AskAboutUnsaved(Studio& studio, const Rect& within) {
   const auto unsaved = studio.calibrate().Unsaved();
   std::string names;
@@ -35,9 +50,9 @@ void OfferLeftBehind(Studio& studio, const Rect& within) {
   Quiet("Egostudio ended before these calibrations were saved.");
   std::filesystem::path chosen;
   for (const Recovery& recovery : left) {
-    const std::string label = "Open " + recovery.avatar.filename().string() + " (" +
-                              std::to_string(recovery.picked) +
-                              (recovery.picked == 1 ? " pick)" : " picks)");
+    const std::string label = std::to_string(recovery.picked) +
+                              (recovery.picked == 1 ? " pick on " : " picks on ") +
+                              Shortened(recovery.avatar.filename().string());
     if (ImGui::Button(label.c_str())) chosen = recovery.avatar;
     Tip(recovery.avatar.c_str());
   }
