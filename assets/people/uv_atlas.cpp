@@ -15,8 +15,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 // inside.
 constexpr std::uint32_t kDirections = 6;
 constexpr std::uint32_t kOutside = 6;
-constexpr std::uint32_t kInside = 7;
-constexpr std::uint32_t kWays = 8;
+constexpr std::uint32_t kWays = 8;  // the last: from inside
 
 /// A piece with the frame that it is unrolled in.
 struct Cylinder {
