@@ -117,7 +117,11 @@ void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera,
     p.distance = pixel->z;
     const float text = atlas.Layout(plate.name, p.quads);
     const float width = text + s * (2.0f * kPadding + kMark + kGap);
-    p.min = {snap(static_cast<float>(pixel->x) - 0.5f * width), snap(static_cast<float>(pixel->y))};
+    // A long name beside the picture's edge stays whole.
+    const float margin = snap(3.0f * s);
+    const float right_most = std::max(margin, static_cast<float>(size.width) - margin - width);
+    const float left = std::clamp(static_cast<float>(pixel->x) - 0.5f * width, margin, right_most);
+    p.min = {snap(left), snap(static_cast<float>(pixel->y))};
     p.max = p.min + glm::vec2{std::ceil(width), snap(s * kHeight)};
   }
   // The nearest keep their place; others give way downwards, or upwards at the picture's edge.

@@ -22,8 +22,8 @@ struct PlateVertex {
 
 /// Lays name plates out at their anchors, far ones first: a mark in the figure's colour and the
 /// name on a quiet ground. Crisp: on whole pixels, at the monitor's scale. Plates that would cover
-/// each other give way, and none leaves the picture by its lower edge; anchors outside the picture
-/// have no plate. Appends two triangles per rectangle.
+/// each other give way, and none leaves the picture by its lower edge or its sides; anchors outside
+/// the picture have no plate. Appends two triangles per rectangle.
 void LayoutPlates(std::span<const DrawList::Plate> plates, const Camera& camera, ViewportSize size,
                   float content_scale, TextAtlas& atlas, std::vector<PlateVertex>& out);
 
