@@ -11,6 +11,7 @@
 #include "app/commands/command.h"
 #include "app/commands/terminal.h"
 #include "app/studio.h"
+#include "assets/motions/motions.h"
 
 namespace ego {
 namespace {
@@ -36,8 +37,13 @@ int RunProgram(int argc, char** argv) {
       "egostudio"};
   program.set_version_flag("--version", "egostudio 0.1.0");
   std::vector<std::filesystem::path> files;
-  program.add_option("FILES", files,
-                     "Takes (.c3d .trc .bvh) and avatars (.glb .gltf .vrm) to open");
+  program.add_option(
+      "FILES", files,
+      "Takes (.c3d .trc .bvh, motion scripts .json) and avatars (.glb .gltf .vrm) to open");
+  std::string motion;
+  program.add_option("--demo", motion,
+                     "Open on this motion of the studio's own performer, by name or number of the "
+                     "study: M7, arms_crossed (egostudio motions --list)");
   program.footer("Each verb has its own help: egostudio solve --help");
   const std::vector<Command> commands = AddCommands(program);
   program.require_subcommand(0, 1);
@@ -46,7 +52,11 @@ int RunProgram(int argc, char** argv) {
     for (const Command& command : commands) {
       if (command.line->parsed()) return command.run();
     }
-    return RunStudio(files);
+    if (!motion.empty()) {
+      const Result<const MotionScript*> known = FindMotion(motion);
+      if (!known) return Fail(known.error());
+    }
+    return RunStudio(files, motion);
   } catch (const CLI::ParseError& error) {
     return Answer(program, error);
   } catch (const std::bad_alloc&) {

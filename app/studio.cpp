@@ -47,10 +47,12 @@ void Studio::OpenFiles(const std::vector<std::filesystem::path>& files) {
   for (const std::filesystem::path& file : files) loader_.AddFile(file);
 }
 
-void Studio::OpenDemoTake() {
-  loader_.Add("Preparing the demo's motion",
-              [](const Progress&) -> Result<BackgroundLoader::Loaded> {
-                return BackgroundLoader::Loaded(LoadDemoTake());
+void Studio::OpenMotion(const std::string& name) {
+  loader_.Add("Preparing the performer's motion",
+              [name](const Progress&) -> Result<BackgroundLoader::Loaded> {
+                Result<LoadedTake> take = LoadMotion(name);
+                if (!take) return Error{take.error()};
+                return BackgroundLoader::Loaded(*std::move(take));
               });
 }
 
@@ -295,7 +297,7 @@ void Studio::RunFrame() {
                                     std::chrono::duration<double>(0.95 / window_->refresh_hz())));
 }
 
-int RunStudio(const std::vector<std::filesystem::path>& files) {
+int RunStudio(const std::vector<std::filesystem::path>& files, const std::string& motion) {
   const std::filesystem::path memory = RememberedPath();
   const Result<Remembered> remembered = ReadRemembered(memory);
   const Remembered start = remembered ? *remembered : Remembered{};
@@ -317,7 +319,7 @@ int RunStudio(const std::vector<std::filesystem::path>& files) {
   };
   studio.OpenFiles(files);
   studio.FindLeftBehind();
-  if (!any(FileKind::kTake)) studio.OpenDemoTake();
+  if (!any(FileKind::kTake)) studio.OpenMotion(motion);
   if (!any(FileKind::kAvatar)) studio.OpenDemoCast();
   while (!studio.ShouldClose()) studio.RunFrame();
   if (memory.empty()) return kDone;

@@ -25,8 +25,9 @@
 namespace ego {
 
 /// Opens the studio window on these files, or on the demo where they name no take or no avatar,
-/// and runs it until it is closed. Returns an exit code.
-int RunStudio(const std::vector<std::filesystem::path>& files);
+/// and runs it until it is closed. `motion`: the motion that the demo shows, empty for several.
+/// Returns an exit code.
+int RunStudio(const std::vector<std::filesystem::path>& files, const std::string& motion = {});
 
 /// A take in the studio's list.
 struct TakeEntry {
@@ -62,7 +63,8 @@ class Studio {
   ~Studio();
 
   void OpenFiles(const std::vector<std::filesystem::path>& files);
-  void OpenDemoTake();
+  /// A motion of the studio's own performer; empty: the demo.
+  void OpenMotion(const std::string& name = {});
   void OpenDemoCast();
 
   /// One turn of the main loop: input, what was loaded, panels, picture. Draws nothing, and waits

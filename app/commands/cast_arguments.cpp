@@ -7,6 +7,7 @@
 
 #include "app/commands/terminal.h"
 #include "app/loading/file_kind.h"
+#include "assets/motions/motions.h"
 #include "core/baselines/retarget_method.h"
 
 namespace ego {
@@ -34,7 +35,13 @@ Result<void> CheckFile(const fs::path& path, FileKind expected) {
 void AddCastOptions(CLI::App& line, CastArguments& arguments) {
   const auto names = RetargetMethodNames();
   arguments.method = std::string(names.front());
-  line.add_option("--take", arguments.take, "Take: .c3d, .trc or .bvh");
+  CLI::Option* take = line.add_option("--take", arguments.take,
+                                      "Take: .c3d, .trc or .bvh, or a motion script .json");
+  line.add_option(
+          "--demo", arguments.demo,
+          "Motion of the studio's own performer instead of a take, by name or number of the "
+          "study: M7, arms_crossed (egostudio motions --list)")
+      ->excludes(take);
   line.add_option("--avatar", arguments.avatars, "Avatar: .glb, .gltf or .vrm; may be repeated")
       ->allow_extra_args(false);
   line.add_option(
@@ -56,6 +63,10 @@ Result<Cast> LoadCast(const CastArguments& arguments) {
     const Result<void> checked = CheckFile(path, FileKind::kAvatar);
     if (!checked) return Error{checked.error()};
   }
+  if (!arguments.demo.empty()) {
+    const Result<const MotionScript*> known = FindMotion(arguments.demo);
+    if (!known) return Error{known.error()};
+  }
   Cast cast;
   for (const fs::path& path : arguments.avatars) {
     ProgressLine line("loading " + path.filename().string());
@@ -71,7 +82,9 @@ Result<Cast> LoadCast(const CastArguments& arguments) {
     }
   }
   if (arguments.take.empty()) {
-    cast.take = LoadDemoTake();
+    Result<LoadedTake> motion = LoadMotion(arguments.demo);
+    if (!motion) return Error{motion.error()};
+    cast.take = *std::move(motion);
   } else {
     std::optional<fs::path> marker_set;
     if (!arguments.marker_set.empty()) marker_set = arguments.marker_set;

@@ -18,12 +18,13 @@ namespace ego {
 /// What several verbs ask for: who performs, who follows, and how.
 struct CastArguments {
   std::filesystem::path take;                  // empty: the demo's
+  std::string demo;                            // which motion the demo shows; empty: several
   std::vector<std::filesystem::path> avatars;  // empty: the demo's
   std::filesystem::path marker_set;            // empty: chosen by the labels
   std::string method;                          // one of RetargetMethodNames
 };
 
-/// Declares --take, --avatar, --method and --marker-set.
+/// Declares --take, --demo, --avatar, --method and --marker-set.
 void AddCastOptions(CLI::App& line, CastArguments& arguments);
 
 /// Everyone on stage, loaded.

@@ -5,7 +5,7 @@ namespace ego {
 
 std::vector<Command> AddCommands(CLI::App& program) {
   return {AddRetargetCommand(program), AddSolveCommand(program), AddRenderCommand(program),
-          AddCalibrateCommand(program), AddPeopleCommand(program)};
+          AddCalibrateCommand(program), AddPeopleCommand(program), AddMotionsCommand(program)};
 }
 
 }  // namespace ego

@@ -28,6 +28,7 @@ Command AddSolveCommand(CLI::App& program);
 Command AddRenderCommand(CLI::App& program);
 Command AddPeopleCommand(CLI::App& program);
 Command AddCalibrateCommand(CLI::App& program);
+Command AddMotionsCommand(CLI::App& program);
 
 /// All verbs, in the order in which --help lists them.
 std::vector<Command> AddCommands(CLI::App& program);

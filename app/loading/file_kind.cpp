@@ -15,15 +15,15 @@ std::string LowerExtension(const std::filesystem::path& path) {
 
 Result<FileKind> KindOf(const std::filesystem::path& path) {
   const std::string extension = LowerExtension(path);
-  for (const char* take : {".c3d", ".trc", ".bvh"}) {
+  for (const char* take : {".c3d", ".trc", ".bvh", ".json"}) {
     if (extension == take) return FileKind::kTake;
   }
   for (const char* avatar : {".glb", ".gltf", ".vrm"}) {
     if (extension == avatar) return FileKind::kAvatar;
   }
   return Error{path.string() +
-               ": cannot tell what to open it as; takes are .c3d, .trc or .bvh, avatars are .glb, "
-               ".gltf or .vrm"};
+               ": cannot tell what to open it as; takes are .c3d, .trc or .bvh, motion scripts "
+               ".json, avatars .glb, .gltf or .vrm"};
 }
 
 }  // namespace ego

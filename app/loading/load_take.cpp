@@ -6,7 +6,8 @@
 
 #include "app/loading/file_kind.h"
 #include "assets/markers/marker_set_file.h"
-#include "assets/people/motions.h"
+#include "assets/motions/motion_script_file.h"
+#include "assets/motions/motions.h"
 #include "assets/takes/bvh.h"
 #include "assets/takes/c3d.h"
 #include "assets/takes/trc.h"
@@ -70,6 +71,21 @@ Result<LoadedTake> LoadSkeletonMotion(const fs::path& path) {
   return Checked(std::move(loaded), path);
 }
 
+LoadedTake Performed(ScriptedTake take, std::string name) {
+  LoadedTake loaded;
+  loaded.motion = std::make_shared<const CapturedMotion>(std::move(take.motion));
+  loaded.name = std::move(name);
+  return loaded;
+}
+
+Result<LoadedTake> LoadScript(const fs::path& path) {
+  const Result<MotionScript> script = ReadMotionScript(path);
+  if (!script) return Naming(path, script.error());
+  LoadedTake loaded = Performed(PerformWithMarkers(*script), script->title);
+  loaded.path = path;
+  return Checked(std::move(loaded), path);
+}
+
 }  // namespace
 
 Result<LoadedTake> LoadTake(const fs::path& path, const std::optional<fs::path>& marker_set,
@@ -77,18 +93,20 @@ Result<LoadedTake> LoadTake(const fs::path& path, const std::optional<fs::path>&
   const Result<FileKind> kind = KindOf(path);
   if (!kind) return Error{kind.error()};
   if (*kind != FileKind::kTake) {
-    return Error{path.string() + ": an avatar, where a take (.c3d, .trc or .bvh) is expected"};
+    return Error{path.string() +
+                 ": an avatar, where a take (.c3d, .trc, .bvh or .json) is expected"};
   }
   if (!Report(progress, 0.0, "reading")) return Error{"cancelled"};
+  if (LowerExtension(path) == ".json") return LoadScript(path);
   if (LowerExtension(path) == ".bvh") return LoadSkeletonMotion(path);
   return LoadMarkers(path, marker_set, progress);
 }
 
-LoadedTake LoadDemoTake() {
-  LoadedTake demo;
-  demo.motion = std::make_shared<const CapturedMotion>(DemoMotion());
-  demo.name = "Demo";
-  return demo;
+Result<LoadedTake> LoadMotion(const std::string& name) {
+  if (name.empty()) return Performed(PerformDemo(), "Demo");
+  const Result<const MotionScript*> script = FindMotion(name);
+  if (!script) return Error{script.error()};
+  return Performed(PerformWithMarkers(**script), (*script)->title);
 }
 
 }  // namespace ego

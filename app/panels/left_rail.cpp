@@ -7,6 +7,7 @@
 #include "app/panels/panels.h"
 #include "app/panels/widgets.h"
 #include "app/studio.h"
+#include "assets/motions/motions.h"
 #include "render/look.h"
 
 namespace ego {
@@ -39,11 +40,25 @@ bool Row(const char* id, const std::string& text, const glm::vec3& mark, bool ch
   return pressed;
 }
 
+// The motions of the studio's own performer, to open one.
+void ShowMotionMenu(Studio& studio) {
+  if (ImGui::Button("Performer's motions...")) ImGui::OpenPopup("motions");
+  if (!ImGui::BeginPopup("motions")) return;
+  if (ImGui::Selectable("Demo: several in a row")) studio.OpenMotion();
+  ImGui::Separator();
+  for (const MotionScript& script : ShippedMotions()) {
+    const std::string label =
+        script.study.empty() ? script.title : script.study + "  " + script.title;
+    if (ImGui::Selectable(label.c_str())) studio.OpenMotion(script.name);
+  }
+  ImGui::EndPopup();
+}
+
 void ShowTakes(Studio& studio) {
   Section("Takes");
   if (studio.takes().empty()) {
     Quiet("Drop a .c3d, .trc or .bvh file on the window, or");
-    if (ImGui::Button("Open the demo's take")) studio.OpenDemoTake();
+    if (ImGui::Button("Open the demo's take")) studio.OpenMotion();
     return;
   }
   std::uint64_t removed = 0;
@@ -65,6 +80,7 @@ void ShowTakes(Studio& studio) {
     ImGui::PopID();
   }
   if (removed) studio.RemoveTake(removed);
+  ShowMotionMenu(studio);
 }
 
 void ShowAvatars(Studio& studio) {

@@ -125,7 +125,7 @@ void ShowEmptyState(Studio& studio, const Rect& view) {
   ImGui::SetCursorScreenPos(
       {view.x + 0.5f * (view.width - Px(140.0f)), view.y + 0.45f * view.height + Px(28.0f)});
   if (ImGui::Button("Open the demo", {Px(140.0f), 0.0f})) {
-    studio.OpenDemoTake();
+    studio.OpenMotion();
     if (studio.avatars().empty()) studio.OpenDemoCast();
   }
 }

@@ -35,7 +35,7 @@ struct Demo {
   explicit Demo(OffscreenContext made, StageRenderer renderer)
       : context(std::move(made)), picture(std::move(renderer)) {
     auto scene = std::make_shared<StageScene>();
-    scene->motion = LoadDemoTake().motion;
+    scene->motion = LoadMotion()->motion;
     std::vector<StageMember> members;
     for (std::size_t i = 0; i < kAvatars; ++i) {
       const LoadedAvatar avatar = LoadDemoAvatar(i);

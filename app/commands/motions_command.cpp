@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/command.h"
+#include "app/commands/terminal.h"
+#include "assets/files/file_io.h"
+#include "assets/motions/motion_check.h"
+#include "assets/motions/motion_script_file.h"
+#include "assets/motions/motions.h"
+#include "core/baselines/retarget_method.h"
+
+namespace ego {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::vector<std::string> names;
+  fs::path report;
+  bool list = false;
+  bool source_only = false;
+  double rate_hz = 20.0;
+};
+
+// A member of the cast who does what the performer does.
+struct Follower {
+  Person person;
+  MotionFigure figure;
+  SkinMeasure probe;
+  explicit Follower(const PersonParameters& parameters)
+      : person(MakePerson(parameters)), figure(person), probe(person.character) {}
+};
+
+// All contacts of one motion on one follower under one method.
+struct FollowerGap {
+  std::string follower;
+  std::string method;
+  std::vector<ContactGap> contacts;
+  ContactGap all;
+};
+
+double Millimetres(double metres) { return std::round(metres * 1e5) / 100.0; }
+
+std::vector<FollowerGap> MeasureFollowers(const MotionScript& script,
+                                          const std::vector<std::unique_ptr<Follower>>& cast,
+                                          double rate_hz) {
+  const MotionFigure& performer = ScriptedFigure();
+  const MotionPlayer player(performer, script);
+  std::vector<FollowerGap> gaps;
+  for (const char* name : {"copy", "mdb"}) {
+    const std::unique_ptr<RetargetMethod> method = MakeRetargetMethod(name);
+    const std::size_t first = gaps.size();
+    for (const auto& follower : cast) {
+      gaps.push_back({follower->person.body.name, name, {}, {}});
+      gaps.back().contacts.resize(player.contacts().size());
+    }
+    for (std::size_t c = 0; c < player.contacts().size(); ++c) {
+      const TrueContact& contact = player.contacts()[c];
+      const double length = contact.to_s - contact.from_s;
+      const int steps = static_cast<int>(std::ceil(length * rate_hz));
+      for (int i = 0; i <= steps; ++i) {
+        const double time = contact.from_s + (steps == 0 ? 0.0 : length * i / steps);
+        method->SetPerformerPose(performer.body(), player.At(time));
+        for (std::size_t f = 0; f < cast.size(); ++f) {
+          Follower& follower = *cast[f];
+          Pose pose;
+          method->Adapt(follower.person.body, pose);
+          follower.probe.SetPose(pose);
+          const ModelPose model = ForwardKinematics(follower.person.body.skeleton, pose);
+          for (ContactGap* gap : {&gaps[first + f].contacts[c], &gaps[first + f].all}) {
+            MeasureContact(follower.figure, contact, time, model, follower.probe, *gap);
+          }
+        }
+      }
+    }
+  }
+  return gaps;
+}
+
+Json GapFacts(const ContactGap& gap) {
+  return {{"samples", gap.samples},
+          {"mean_gap_mm", Millimetres(gap.mean_abs)},
+          {"widest_mm", Millimetres(gap.widest)},
+          {"deepest_mm", Millimetres(gap.deepest)},
+          {"off_place_mm", Millimetres(gap.off_place)}};
+}
+
+void PrintSource(const MotionScript& script, const MotionPlayer& player, const MotionCheck& check) {
+  std::printf("%s%s%s: %.2f s\n", script.study.c_str(), script.study.empty() ? "" : " ",
+              script.name.c_str(), script.Duration());
+  for (std::size_t c = 0; c < check.contacts.size(); ++c) {
+    const TrueContact& contact = player.contacts()[c];
+    std::printf("  %6.2f to %6.2f s  %s%s, off by at most %.2f mm\n", contact.from_s, contact.to_s,
+                contact.Sentence().c_str(), contact.Slides() ? ", sliding" : "",
+                1000.0 * std::max(check.contacts[c].widest, check.contacts[c].deepest));
+  }
+  if (check.sinking.depth > 0.0) {
+    std::printf("  sinks into itself by at most %.1f mm: %s in %s at %.2f s\n",
+                1000.0 * check.sinking.depth, std::string(Name(check.sinking.of)).c_str(),
+                std::string(Name(check.sinking.in)).c_str(), check.sinking_at_s);
+  } else {
+    std::printf("  sinks into itself nowhere\n");
+  }
+  std::printf(
+      "  fastest joint %.0f degrees/s at %.2f s, %.0f degrees/s2 at %.2f s, wrist bent by "
+      "at most %.0f degrees at %.2f s\n",
+      check.largest_speed, check.largest_speed_at_s, check.largest_acceleration,
+      check.largest_acceleration_at_s, check.largest_wrist, check.largest_wrist_at_s);
+}
+
+Json SourceFacts(const MotionScript& script, const MotionPlayer& player, const MotionCheck& check) {
+  Json contacts = Json::array();
+  for (std::size_t c = 0; c < check.contacts.size(); ++c) {
+    const TrueContact& contact = player.contacts()[c];
+    contacts.push_back({{"what", contact.Sentence()},
+                        {"from_s", contact.from_s},
+                        {"to_s", contact.to_s},
+                        {"slides", contact.Slides()},
+                        {"gap", GapFacts(check.contacts[c])}});
+  }
+  return {{"name", script.name},
+          {"study", script.study},
+          {"title", script.title},
+          {"duration_s", script.Duration()},
+          {"contacts", contacts},
+          {"deepest_interpenetration_mm", Millimetres(check.sinking.depth)},
+          {"deepest_of", std::string(Name(check.sinking.of))},
+          {"deepest_in", std::string(Name(check.sinking.in))},
+          {"deepest_at_s", check.sinking_at_s},
+          {"largest_joint_speed_deg_per_s", std::round(check.largest_speed)},
+          {"largest_joint_acceleration_deg_per_s2", std::round(check.largest_acceleration)}};
+}
+
+void PrintFollowers(const std::vector<FollowerGap>& gaps) {
+  const std::size_t half = gaps.size() / 2;
+  for (std::size_t f = 0; f < half; ++f) {
+    if (gaps[f].all.samples == 0) continue;
+    std::printf("  %-10s", gaps[f].follower.c_str());
+    for (const FollowerGap* gap : {&gaps[f], &gaps[f + half]}) {
+      std::printf("  %s: gap %5.1f mm (widest %5.1f, deepest %5.1f), off place %5.1f mm%s",
+                  gap->method.c_str(), 1000.0 * gap->all.mean_abs, 1000.0 * gap->all.widest,
+                  1000.0 * gap->all.deepest, 1000.0 * gap->all.off_place,
+                  gap->method == "copy" ? ";" : "\n");
+    }
+  }
+}
+
+Result<std::vector<MotionScript>> ScriptsOf(const Arguments& arguments) {
+  const std::span<const MotionScript> shipped = ShippedMotions();
+  if (arguments.names.empty()) return std::vector<MotionScript>(shipped.begin(), shipped.end());
+  std::vector<MotionScript> scripts;
+  for (const std::string& name : arguments.names) {
+    if (name.ends_with(".json")) {
+      Result<MotionScript> script = ReadMotionScript(name);
+      if (!script) return Error{script.error()};
+      scripts.push_back(*std::move(script));
+      continue;
+    }
+    const Result<const MotionScript*> script = FindMotion(name);
+    if (!script) return Error{script.error()};
+    scripts.push_back(**script);
+  }
+  return scripts;
+}
+
+int Motions(const Arguments& arguments) {
+  const Result<std::vector<MotionScript>> scripts = ScriptsOf(arguments);
+  if (!scripts) return Fail(scripts.error());
+  if (arguments.list) {
+    for (const MotionScript& script : *scripts) {
+      std::printf("%-3s %-18s %5.1f s  %s\n", script.study.c_str(), script.name.c_str(),
+                  script.Duration(), script.title.c_str());
+    }
+    return kDone;
+  }
+  std::vector<std::unique_ptr<Follower>> cast;
+  if (!arguments.source_only) {
+    const std::vector<PersonParameters> everyone = DemoCast();
+    for (std::size_t i = 1; i < everyone.size(); ++i) {
+      cast.push_back(std::make_unique<Follower>(everyone[i]));
+    }
+  }
+  Json report = Json::array();
+  ProgressLine line("measuring");
+  for (std::size_t i = 0; i < scripts->size(); ++i) {
+    const MotionScript& script = (*scripts)[i];
+    line.Show(static_cast<double>(i) / static_cast<double>(scripts->size()), script.name);
+    const MotionPlayer player(ScriptedFigure(), script);
+    const MotionCheck check = CheckMotion(ScriptedFigure(), script, 1.0 / arguments.rate_hz);
+    PrintSource(script, player, check);
+    Json facts = SourceFacts(script, player, check);
+    const std::vector<FollowerGap> gaps = MeasureFollowers(script, cast, 5.0);
+    PrintFollowers(gaps);
+    std::fflush(stdout);
+    facts["cast"] = Json::array();
+    for (const FollowerGap& gap : gaps) {
+      Json contacts = Json::array();
+      for (const ContactGap& contact : gap.contacts) contacts.push_back(GapFacts(contact));
+      facts["cast"].push_back({{"name", gap.follower},
+                               {"method", gap.method},
+                               {"all", GapFacts(gap.all)},
+                               {"contacts", contacts}});
+    }
+    report.push_back(std::move(facts));
+  }
+  if (!arguments.report.empty()) {
+    const Json root = {{"performer", ScriptedPerformer().body.name}, {"motions", report}};
+    const Result<void> written = WriteFileAtomically(arguments.report, root.dump(2) + "\n");
+    if (!written) return Fail(written.error());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+Command AddMotionsCommand(CLI::App& program) {
+  CLI::App* line = program.add_subcommand(
+      "motions", "Measure the studio's own motions: true contacts, interpenetration, contact gaps");
+  auto arguments = std::make_shared<Arguments>();
+  line->add_option("--motion", arguments->names,
+                   "Only this one: a name, a number of the study (M7) or a script file .json; may "
+                   "be repeated")
+      ->allow_extra_args(false);
+  line->add_flag("--list", arguments->list, "Only list names, lengths and titles");
+  line->add_flag("--source-only", arguments->source_only,
+                 "Measure the performer alone, not the cast that follows");
+  line->add_option("--rate", arguments->rate_hz,
+                   "How many times per second interpenetration is looked for")
+      ->check(CLI::Range(1.0, 240.0))
+      ->capture_default_str();
+  line->add_option("--report", arguments->report, "Also write all figures, .json");
+  line->footer(
+      "For each motion: which hand or foot touches what, and when; how deep the performer's skin "
+      "sinks into itself (skinned mesh; limbs against the body without that limb; the folds at "
+      "shoulders, hips, elbows and knees do not count); for each character of the cast how far the "
+      "same contacts are from the skin (gap: mean distance, inside or outside) and from the place "
+      "that is meant, with plain joint angles (copy) and with contacts kept (mdb).\n\n"
+      "Examples:\n"
+      "  egostudio motions --list\n"
+      "  egostudio motions --motion M7 --report m7.json\n"
+      "  egostudio motions --motion my_motion.json --source-only");
+  return {line, [arguments] { return Motions(*arguments); }};
+}
+
+}  // namespace ego
