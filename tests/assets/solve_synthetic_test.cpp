@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "assets/markers/marker_set_file.h"
-#include "assets/people/motions.h"
+#include "assets/motions/motions.h"
 #include "core/solve/performer_surface.h"
 #include "core/solve/solve_take.h"
 #include "core/solve/standing.h"
@@ -337,8 +337,9 @@ TEST(SolveTake, StopsWhenTold) {
 
 TEST(SolveTake, SolvesTheScriptedPerformersMarkersAsTheStudiosOwnSet) {
   // Markers on modelled skin, whose bones are known: the studio's set must name and place them all.
-  const Result<CapturedMotion> motion = ScriptedMotion(ScriptedMotionNames().front());
-  ASSERT_TRUE(motion) << motion.error();
+  const Result<ScriptedTake> take = PerformShipped("wave");
+  ASSERT_TRUE(take) << take.error();
+  const CapturedMotion* const motion = &take->motion;
   const Result<MarkerSet> set = ChooseMarkerSet(motion->markers->labels);
   ASSERT_TRUE(set) << set.error();
   EXPECT_EQ(set->name, "Studio 38");
