@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assets/people/motions.h"
+#include "assets/motions/motions.h"
 
 namespace ego {
 namespace {
