@@ -39,6 +39,23 @@ struct AxisBox {
   }
 };
 
+/// Whether a point lies within closed skin: most of three rays leave it more often than they enter.
+/// The triangle nearest to a point alone does not tell where hems and seams are sharp.
+bool Within(const MeshBvh& skin, const Vec3& p) {
+  constexpr double kFar = 4.0;
+  int votes = 0;
+  for (const Vec3& toward :
+       {Vec3{0.61, 0.37, 0.70}, Vec3{-0.53, 0.75, -0.40}, Vec3{0.21, -0.64, -0.74}}) {
+    const Vec3 direction = glm::normalize(toward);
+    int leaves = 0;
+    for (const MeshBvh::Hit& hit : skin.AllHits(p, direction, kFar)) {
+      leaves += glm::dot(hit.normal_ws, direction) > 0.0 ? 1 : -1;
+    }
+    votes += leaves > 0 ? 1 : 0;
+  }
+  return votes >= 2;
+}
+
 }  // namespace
 
 SkinMeasure::SkinMeasure(const Character& character)
@@ -106,7 +123,7 @@ SkinMeasure::Sinking SkinMeasure::Deepest() const {
     for (const auto& [at, joint] : suspects) {
       const auto hit = rest.Nearest(at);
       if (!hit || hit->distance <= deepest.depth) continue;
-      if (glm::dot(at - hit->position_ws, hit->normal_ws) >= 0.0) continue;
+      if (glm::dot(at - hit->position_ws, hit->normal_ws) >= 0.0 || !Within(rest, at)) continue;
       const auto part = static_cast<std::size_t>(hit->place.part);
       const std::uint32_t vertex =
           character_.parts[part].triangles[std::size_t{3} * hit->place.triangle];
