@@ -47,17 +47,16 @@ void CalibrationSession::GoToDoubtful(bool forward) {
 Result<void> CalibrationSession::Pick(const MeshPoint& place) {
   if (!current_) return Error{"Every point is settled; choose one in the list to change it."};
   const PickItem item = *current_;
+  ring_note_.clear();
   if (!item.segment) {
     if (Result<void> done = editor_.Pick(item.point, place); !done) return done;
   } else {
-    const double share = ShareAlong(*item.segment, place);
-    const bool both = editor_.Symmetric();
-    if (both) editor_.BeginGroup("Ring around " + Title(item));
-    Result<void> done = editor_.SetRing(*item.segment, share);
-    if (done && both) done = editor_.SetRing(Mirror(*item.segment), share);
-    if (both && !done) editor_.CancelGroup();
-    if (both && done) editor_.EndGroup();
-    if (!done) return done;
+    const Result<void> ring = editor_.SetRing(*item.segment, ShareAlong(*item.segment, place));
+    if (!ring) {
+      // A limb that grows out of the body at once has no loop of its own there.
+      if (Result<void> done = AddDot(place); !done) return done;
+      ring_note_ = ring.error() + "; this place alone tells how thick it is";
+    }
   }
   current_ = NextUnsettled(calibration(), item);
   return {};

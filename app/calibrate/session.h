@@ -48,8 +48,10 @@ class CalibrationSession {
   void GoToDoubtful(bool forward);
 
   // -- Operations on the current item. An error changes nothing. ------------------------------
-  /// Puts it at a place of the skin and goes on to the next; of a limb it lays a ring there.
+  /// Puts it at a place of the skin and goes on to the next; of a limb it lays a ring there, or a
+  /// single dot where no ring goes around: then `RingNote()` says so.
   Result<void> Pick(const MeshPoint& place);
+  const std::string& RingNote() const { return ring_note_; }
   /// Adds one more dot to the current limb.
   Result<void> AddDot(const MeshPoint& place);
   /// Confirms it and goes on to the next that a person should look at.
@@ -104,6 +106,7 @@ class CalibrationSession {
   CalibrationEditor editor_;
   std::unique_ptr<MeshPicker> picker_;
   std::optional<PickItem> current_;
+  std::string ring_note_;
 
   ShownPose shown_;
   ModelPose pose_;

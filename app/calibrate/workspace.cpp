@@ -108,6 +108,9 @@ void CalibrateWorkspace::Answer(Studio& studio, const Result<void>& result) {
 void CalibrateWorkspace::Pick(Studio& studio, const MeshPoint& place, bool add_dot) {
   const Result<void> done = add_dot ? session()->AddDot(place) : session()->Pick(place);
   Answer(studio, done);
+  if (done && !add_dot && !session()->RingNote().empty()) {
+    Note(studio, session()->RingNote(), false);
+  }
   if (done) Follow(studio);
 }
 

@@ -6,6 +6,12 @@
 #include "assets/calibration/calibration_file.h"
 
 namespace ego {
+namespace {
+
+/// How much farther than its present radius a limb's skin is looked for.
+constexpr double kThick = 1.5;
+
+}  // namespace
 
 Result<void> CalibrationEditor::SetLimbPoint(LimbSegment segment, std::size_t dot,
                                              const MeshPoint& place) {
@@ -34,13 +40,16 @@ Result<void> CalibrationEditor::SetLimbPoint(LimbSegment segment, std::size_t do
 Result<void> CalibrationEditor::SetRing(LimbSegment segment, double t, std::size_t dots) {
   impl_->note.clear();
   AvatarCalibration next = Calibration();
-  const auto ring = impl_->surface->Ring(segment, t);
+  const auto around = [&](LimbSegment one) {
+    return impl_->surface->Ring(one, t, kThick * Calibration().At(one).radius);
+  };
+  const auto ring = around(segment);
   if (!ring) {
     return Error{"no ring of skin goes around the " + Lower(Title(segment)) + " there"};
   }
   impl_->AddRing(next, segment, t, *ring, dots);
   if (impl_->symmetric) {
-    if (const auto other = impl_->surface->Ring(Mirror(segment), t)) {
+    if (const auto other = around(Mirror(segment))) {
       impl_->AddRing(next, Mirror(segment), t, *other, dots);
     } else {
       impl_->note = "no ring of skin goes around the " + Lower(Title(Mirror(segment))) + " there";

@@ -78,8 +78,9 @@ class SurfaceMesh {
   /// `start_ms` to `end_ms`. Of the loops that go around the line (by more than half a turn) and
   /// are at most `farthest` from it on average, the outermost of those that lie on each other: one
   /// half as far again as the one below it is loose cloth. Nothing when there is none. A segment
-  /// is its bone, with half its length for `farthest`.
-  std::optional<SurfaceRing> Ring(LimbSegment segment, double t) const;
+  /// is its bone, with half its length for `farthest`, or `thickness` where that is more (limbs as
+  /// thick as they are long).
+  std::optional<SurfaceRing> Ring(LimbSegment segment, double t, double thickness = 0.0) const;
   std::optional<SurfaceRing> Ring(const Vec3& start_ms, const Vec3& end_ms, double t,
                                   double farthest) const;
 

@@ -43,10 +43,11 @@ std::vector<MeshPoint> SurfaceRing::Even(std::size_t count) const {
   return even;
 }
 
-std::optional<SurfaceRing> SurfaceMesh::Ring(LimbSegment segment, double t) const {
+std::optional<SurfaceRing> SurfaceMesh::Ring(LimbSegment segment, double t,
+                                             double thickness) const {
   const Vec3& start = impl_->joint[Index(StartJoint(segment))];
   const Vec3& end = impl_->joint[Index(EndJoint(segment))];
-  return Ring(start, end, t, 0.5 * glm::distance(start, end));
+  return Ring(start, end, t, std::max(0.5 * glm::distance(start, end), thickness));
 }
 
 std::optional<SurfaceRing> SurfaceMesh::Ring(const Vec3& start_ms, const Vec3& end_ms, double t,

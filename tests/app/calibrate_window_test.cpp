@@ -188,6 +188,20 @@ TEST_F(CalibrateWindow, EveryPointByHandOnAChild) {
   ExpectSaved();
 }
 
+TEST_F(CalibrateWindow, EveryPointByHandOnABunny) {
+  EGO_SHARED_DATA_OR_SKIP(path, "avatars/m2m_human-bunny.glb");
+  Open(Copy(path));
+  PickEverythingByHand();
+  ExpectSaved();
+}
+
+TEST_F(CalibrateWindow, EveryPointByHandOnAnAlien) {
+  EGO_SHARED_DATA_OR_SKIP(path, "avatars/sumerian_alien.glb");
+  Open(Copy(path));
+  PickEverythingByHand();
+  ExpectSaved();
+}
+
 TEST_F(CalibrateWindow, ByProposalsOnTheCast) {
   Open(Cast());
   ConfirmProposals();
