@@ -76,10 +76,9 @@ class Loft {
 };
 
 /// A triangle curved by the normals of its corners: a point-normal triangle (Vlachos et al., Curved
-/// PN Triangles, 2001), cut into kCuts^2 flat ones.
-void AppendCurved(const std::array<glm::vec3, 3>& p, const std::array<glm::vec3, 3>& n,
+/// PN Triangles, 2001), cut into cuts^2 flat ones.
+void AppendCurved(const std::array<glm::vec3, 3>& p, const std::array<glm::vec3, 3>& n, int cuts,
                   TriangleSink& sink) {
-  constexpr int kCuts = 4;
   const auto edge = [&](std::size_t i, std::size_t j) {
     return (2.0f * p[i] + p[j] - glm::dot(p[j] - p[i], n[i]) * n[i]) / 3.0f;
   };
@@ -88,10 +87,10 @@ void AppendCurved(const std::array<glm::vec3, 3>& p, const std::array<glm::vec3,
   const glm::vec3 e = (b210 + b120 + b021 + b012 + b102 + b201) / 6.0f;
   const glm::vec3 b111 = e + 0.5f * (e - (p[0] + p[1] + p[2]) / 3.0f);
   const std::uint32_t first = sink.Next();
-  for (int row = 0; row <= kCuts; ++row) {
+  for (int row = 0; row <= cuts; ++row) {
     for (int k = 0; k <= row; ++k) {
-      const float w = 1.0f - static_cast<float>(row) / kCuts;
-      const float v = static_cast<float>(k) / kCuts;
+      const float w = 1.0f - static_cast<float>(row) / static_cast<float>(cuts);
+      const float v = static_cast<float>(k) / static_cast<float>(cuts);
       const float u = 1.0f - w - v;
       sink.positions.push_back(w * w * w * p[0] + u * u * u * p[1] + v * v * v * p[2] +
                                3.0f * (w * w * u * b210 + w * u * u * b120 + w * w * v * b201 +
@@ -103,7 +102,7 @@ void AppendCurved(const std::array<glm::vec3, 3>& p, const std::array<glm::vec3,
   const auto id = [&](int row, int k) {
     return first + static_cast<std::uint32_t>(row * (row + 1) / 2 + k);
   };
-  for (int row = 0; row < kCuts; ++row) {
+  for (int row = 0; row < cuts; ++row) {
     for (int k = 0; k <= row; ++k) {
       sink.indices.insert(sink.indices.end(), {id(row, k), id(row + 1, k), id(row + 1, k + 1)});
       if (k == row) continue;
@@ -134,10 +133,12 @@ void AppendTrunkAndHead(const Body& body, const ModelPose& pose, const Vec3& off
     }
   }
   for (glm::vec3& n : smooth) n = Normalized(n);
+  // A trunk's triangles bulge by about 32 mm: cut in two, four times less, and so on.
+  const int cuts = sink.smallest > 0.008 ? 2 : sink.smallest > 0.0036 ? 3 : 4;
   for (const SampleTriangle& t : SampleTriangles()) {
     const std::array<std::size_t, 3> v = {Index(t[0]), Index(t[1]), Index(t[2])};
     if (look == CrudeLook::kRounded) {
-      AppendCurved({at[v[0]], at[v[1]], at[v[2]]}, {smooth[v[0]], smooth[v[1]], smooth[v[2]]},
+      AppendCurved({at[v[0]], at[v[1]], at[v[2]]}, {smooth[v[0]], smooth[v[1]], smooth[v[2]]}, cuts,
                    sink);
       continue;
     }

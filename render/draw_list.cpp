@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "render/shadow_mesh.h"
+#include <utility>
 
 namespace ego {
 namespace {
@@ -13,7 +12,6 @@ namespace {
 using J = HumanoidJoint;
 
 constexpr float kRimStrength = 0.9f;
-constexpr float kShadowCells = 56.0f;  // over a character's largest extent
 
 std::uint32_t Size(const auto& container) { return static_cast<std::uint32_t>(container.size()); }
 
@@ -63,40 +61,25 @@ StageCharacter PrepareCharacter(const Character& character) {
       return out;
     }
   }
-  glm::vec3 low{1e30f}, high{-1e30f};
-  for (const MeshPart& part : character.parts) {
-    for (const glm::vec3& p : part.positions) {
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-  }
-  const glm::vec3 extent = high - low;
-  const float cell = std::max({extent.x, extent.y, extent.z}) / kShadowCells;
+  std::vector<MeshPart> usable;
   for (const MeshPart& part : character.parts) {
     if (!IsUsable(part, character.palette.size())) continue;
-    StageCharacter::Part& to = out.parts.emplace_back();
-    to.mesh = SkinnedMesh(part);
-    if (part.uvs.size() == part.positions.size()) to.uvs = part.uvs;
-    to.first_index = Size(out.indices);
-    to.index_count = Size(part.triangles) / 3u * 3u;
-    out.indices.insert(out.indices.end(), part.triangles.begin(), part.triangles.end());
-    to.first_shadow_index = to.first_index;
-    to.shadow_index_count = to.index_count;
-    const bool has_holes = part.material >= 0 &&
-                           static_cast<std::size_t>(part.material) < character.materials.size() &&
-                           character.materials[static_cast<std::size_t>(part.material)].alpha_mask;
-    if (!has_holes) {
-      const std::vector<std::uint32_t> coarse =
-          ClusterTriangles(part.positions, part.normals, part.triangles, cell);
-      to.first_shadow_index = Size(out.indices);
-      to.shadow_index_count = Size(coarse);
-      out.indices.insert(out.indices.end(), coarse.begin(), coarse.end());
-    }
+    usable.push_back(part);
     // The parts of `character` keep their materials, without their vertices.
     MeshPart& kept = out.character.parts.emplace_back();
     kept.name = part.name;
     kept.material = part.material;
   }
+  out.detail = MakeDetailLevels(usable);
+  for (std::size_t p = 0; p < usable.size(); ++p) {
+    const MeshPart& part = usable[p];
+    const std::vector<std::uint32_t>& order = out.detail.order[p];
+    StageCharacter::Part& to = out.parts.emplace_back();
+    to.mesh = SkinnedMesh(part, order);
+    if (part.uvs.size() != part.positions.size()) continue;
+    for (const std::uint32_t v : order) to.uvs.push_back(part.uvs[v]);
+  }
+  out.detail.order = {};
   return out;
 }
 
@@ -113,8 +96,10 @@ void DrawList::Clear() {
   bounds = {};
 }
 
-void DrawList::Build(const StageView& view, const CharacterStore& characters) {
+void DrawList::Build(const StageView& view, const CharacterStore& characters,
+                     const Exactness& exactness) {
   Clear();
+  exactness_ = exactness;
   const Vec3 eye = view.camera.Position();
   for (const Figure& figure : view.figures) {
     if (IsUsable(figure.character, characters)) {
@@ -153,14 +138,31 @@ DrawList::Group DrawList::Begin(Pass pass, const Figure& figure) const {
 void DrawList::End(Group group, const Vec3& eye, std::size_t first_vertex) {
   group.mesh_count = Size(meshes) - group.first_mesh;
   if (group.mesh_count == 0) return;
-  Box3 box;
-  for (std::size_t i = first_vertex; i < positions.size(); ++i) box.Add(Vec3(positions[i]));
+  glm::vec3 low{1e30f}, high{-1e30f};
+  for (std::size_t i = first_vertex; i < positions.size(); ++i) {
+    low = glm::min(low, positions[i]);
+    high = glm::max(high, positions[i]);
+  }
+  const Box3 box{Vec3(low), Vec3(high)};
   group.distance = box.IsEmpty() ? 0.0 : glm::length(box.Center() - eye);
   bounds.Add(box);
   groups.push_back(group);
 }
 
-TriangleSink DrawList::NewMesh() { return {positions, normals, indices, positions.size()}; }
+TriangleSink DrawList::NewMesh(double smallest) {
+  return {positions, normals, indices, positions.size(), smallest};
+}
+
+double DrawList::Smallest(std::span<const Vec3> points, const Figure& figure,
+                          const Vec3& eye) const {
+  if (!(exactness_.pixels > 0.0) || !(exactness_.focal > 0.0)) return 0.0;
+  double nearest = 1e300;
+  for (const Vec3& p : points) {
+    const Vec3 d = p + figure.offset_ws - eye;
+    nearest = std::min(nearest, glm::dot(d, d));
+  }
+  return std::sqrt(nearest) * exactness_.pixels / exactness_.focal;
+}
 
 void DrawList::AddMesh(const TriangleSink& sink, std::size_t first_index, const glm::vec4& color) {
   if (indices.size() == first_index) return;
@@ -181,6 +183,17 @@ void DrawList::AddCharacter(const Figure& figure, const StageCharacter& characte
   palette_.resize(source.palette.size());
   SkinningPalette(source, shown.node_global, figure.offset_ws, palette_);
 
+  points_.clear();
+  for (const Mat4& node : shown.node_global) points_.emplace_back(node[3]);
+  float scale = 0.0f;  // from the mesh's units to metres
+  for (const glm::mat4& m : palette_) scale = std::max(scale, glm::length(glm::vec3(m[0])));
+  const double smallest = Smallest(points_, figure, eye);
+  std::size_t chosen = 0;
+  while (chosen + 1 < character.detail.levels.size() &&
+         static_cast<double>(scale * character.detail.levels[chosen + 1].error) <= smallest) {
+    ++chosen;
+  }
+
   const bool see_through = shown.opacity < 0.999f;
   Group solid = Begin(see_through ? Pass::kTranslucent : Pass::kOpaque, figure);
   solid.edges = shown.edges;
@@ -188,14 +201,19 @@ void DrawList::AddCharacter(const Figure& figure, const StageCharacter& characte
   std::vector<Mesh> blended;
   for (std::size_t p = 0; p < character.parts.size(); ++p) {
     const StageCharacter::Part& part = character.parts[p];
+    const DetailLevel::Part& detail = character.detail.levels[chosen].parts[p];
+    if (detail.index_count == 0) continue;
     const std::size_t first = positions.size();
-    const std::size_t count = part.mesh.VertexCount();
+    const std::size_t count = detail.vertex_count;
     positions.resize(first + count);
     normals.resize(first + count);
     part.mesh.Skin(palette_, std::span(positions).subspan(first),
                    std::span(normals).subspan(first));
-    uvs.resize(first, glm::vec2{0.0f});
-    uvs.insert(uvs.end(), part.uvs.begin(), part.uvs.end());
+    if (!part.uvs.empty()) {
+      uvs.resize(first, glm::vec2{0.0f});
+      uvs.insert(uvs.end(), part.uvs.begin(),
+                 part.uvs.begin() + static_cast<std::ptrdiff_t>(count));
+    }
 
     const int material_index = source.parts[p].material;
     const bool has_material =
@@ -204,10 +222,10 @@ void DrawList::AddCharacter(const Figure& figure, const StageCharacter& characte
         has_material ? source.materials[static_cast<std::size_t>(material_index)] : Material{};
     Mesh mesh;
     mesh.character = shown.character.value;
-    mesh.first_index = part.first_index;
-    mesh.index_count = part.index_count;
-    mesh.first_shadow_index = part.first_shadow_index;
-    mesh.shadow_index_count = part.shadow_index_count;
+    mesh.first_index = detail.first_index;
+    mesh.index_count = detail.index_count;
+    mesh.first_shadow_index = detail.first_shadow_index;
+    mesh.shadow_index_count = detail.shadow_index_count;
     mesh.first_vertex = static_cast<std::uint32_t>(first);
     mesh.color = material.base_color * glm::vec4(shown.tint, shown.opacity);
     mesh.image = part.uvs.empty() ? -1 : material.base_color_image;
@@ -249,7 +267,7 @@ void DrawList::AddSurface(const Figure& figure, const Vec3& eye) {
                                              : Pass::kOpaque;
   Group group = Begin(pass, figure);
   group.casts_shadow = !overlay;
-  TriangleSink sink = NewMesh();
+  TriangleSink sink = NewMesh(Smallest(shown.pose->position_ws, figure, eye));
   const std::size_t first_index = indices.size();
   AppendBody(*shown.body, *shown.pose, figure.offset_ws,
              shown.through ? CrudeLook::kFacets : CrudeLook::kRounded, sink);
@@ -266,7 +284,7 @@ void DrawList::AddSkeleton(const Figure& figure, const Vec3& eye) {
   const SkeletonPart& shown = *figure.skeleton;
   Group group = Begin(shown.through ? Pass::kThrough : Pass::kOpaque, figure);
   group.casts_shadow = !figure.character && !figure.surface;
-  TriangleSink sink = NewMesh();
+  TriangleSink sink = NewMesh(Smallest(shown.pose->position_ws, figure, eye));
   const std::size_t first_index = indices.size();
   AppendSkeleton(*shown.skeleton, *shown.pose, figure.offset_ws, sink);
   AddMesh(sink, first_index, glm::vec4(Linear(shown.color), 1.0f));
@@ -282,7 +300,7 @@ void DrawList::AddMarkers(const Figure& figure, const Vec3& eye) {
   const MarkerPart& shown = *figure.markers;
   Group group = Begin(Pass::kOpaque, figure);
   group.rim = {};
-  TriangleSink sink = NewMesh();
+  TriangleSink sink = NewMesh(Smallest(shown.frame.position_ws, figure, eye));
   const std::size_t first_index = indices.size();
   const std::size_t n = std::min(shown.frame.position_ws.size(), shown.frame.visible.size());
   for (std::size_t i = 0; i < n; ++i) {

@@ -11,6 +11,7 @@
 
 #include "core/model/character.h"
 #include "render/body_mesh.h"
+#include "render/detail_levels.h"
 #include "render/skinning.h"
 #include "render/stage_view.h"
 
@@ -23,13 +24,9 @@ struct StageCharacter {
   struct Part {
     SkinnedMesh mesh;
     std::vector<glm::vec2> uvs;  // one per vertex, or empty
-    std::uint32_t first_index = 0;
-    std::uint32_t index_count = 0;
-    std::uint32_t first_shadow_index = 0;  // a coarser mesh over the same vertices
-    std::uint32_t shadow_index_count = 0;
   };
   std::vector<Part> parts;
-  std::vector<std::uint32_t> indices;  // of all parts
+  DetailLevels detail;  // the order of its vertices is that of the parts
 };
 using CharacterStore = std::map<std::uint32_t, StageCharacter>;
 
@@ -38,6 +35,12 @@ StageCharacter PrepareCharacter(const Character& character);
 
 /// In which order and how a group is drawn.
 enum class Pass { kOpaque, kTranslucent, kThrough };
+
+/// How exact meshes must be: as seen from the camera, or exactly as loaded.
+struct Exactness {
+  double pixels = 0.0;  // by which a surface may be off; 0: none is simplified
+  double focal = 0.0;   // pixels that a metre spans at a metre's distance
+};
 
 /// Everything one picture needs, posed, in world space, ready to be uploaded. Keeps its memory
 /// from frame to frame.
@@ -87,7 +90,8 @@ struct DrawList {
   Box3 bounds;
 
   /// Poses every figure of the view. Names are borrowed from it.
-  void Build(const StageView& view, const CharacterStore& characters);
+  void Build(const StageView& view, const CharacterStore& characters,
+             const Exactness& exactness = {});
 
  private:
   void Clear();
@@ -100,10 +104,14 @@ struct DrawList {
   Group Begin(Pass pass, const Figure& figure) const;
   void End(Group group, const Vec3& eye, std::size_t first_vertex);
   /// A mesh of the list's own triangles: fill the sink, then pass it to AddMesh.
-  TriangleSink NewMesh();
+  TriangleSink NewMesh(double smallest);
+  /// Metres that a surface may be off where the nearest of these points is.
+  double Smallest(std::span<const Vec3> points, const Figure& figure, const Vec3& eye) const;
   void AddMesh(const TriangleSink& sink, std::size_t first_index, const glm::vec4& color);
 
+  Exactness exactness_;
   std::vector<glm::mat4> palette_;
+  std::vector<Vec3> points_;
 };
 
 /// Linear light of an sRGB colour.

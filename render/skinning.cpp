@@ -2,6 +2,7 @@
 #include "render/skinning.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "core/base/check.h"
 
@@ -18,24 +19,32 @@ void SkinningPalette(const Character& character, std::span<const Mat4> node_glob
   }
 }
 
-SkinnedMesh::SkinnedMesh(const MeshPart& part)
-    : bind_position_(part.positions), bind_normal_(part.normals) {
-  bind_normal_.resize(bind_position_.size(), glm::vec3{0.0f, 1.0f, 0.0f});
-  first_.reserve(bind_position_.size() + 1);
+SkinnedMesh::SkinnedMesh(const MeshPart& part) {
+  std::vector<std::uint32_t> order(part.positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  *this = SkinnedMesh(part, order);
+}
+
+SkinnedMesh::SkinnedMesh(const MeshPart& part, std::span<const std::uint32_t> order) {
+  first_.reserve(order.size() + 1);
   first_.push_back(0);
-  for (const MeshPart::Influences& all : part.influences) {
-    for (std::size_t k = 0; k < MeshPart::kInfluences; ++k) {
-      if (all.weight[k] != 0.0f) influences_.push_back({all.entry[k], all.weight[k]});
+  for (const std::uint32_t v : order) {
+    bind_position_.push_back(part.positions[v]);
+    bind_normal_.push_back(v < part.normals.size() ? part.normals[v] : glm::vec3{0.0f, 1.0f, 0.0f});
+    if (v < part.influences.size()) {
+      const MeshPart::Influences& all = part.influences[v];
+      for (std::size_t k = 0; k < MeshPart::kInfluences; ++k) {
+        if (all.weight[k] != 0.0f) influences_.push_back({all.entry[k], all.weight[k]});
+      }
     }
     first_.push_back(static_cast<std::uint32_t>(influences_.size()));
   }
-  first_.resize(bind_position_.size() + 1, first_.back());
 }
 
 void SkinnedMesh::Skin(std::span<const glm::mat4> palette, std::span<glm::vec3> positions,
                        std::span<glm::vec3> normals) const {
-  EGO_CHECK(positions.size() == VertexCount() && normals.size() == VertexCount());
-  for (std::size_t v = 0; v < bind_position_.size(); ++v) {
+  EGO_CHECK(positions.size() <= VertexCount() && normals.size() == positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
     glm::vec4 x{0.0f}, y{0.0f}, z{0.0f}, t{0.0f};
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
       const glm::mat4& m = palette[influences_[i].entry];

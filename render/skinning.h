@@ -22,11 +22,14 @@ class SkinnedMesh {
  public:
   SkinnedMesh() = default;
   explicit SkinnedMesh(const MeshPart& part);
+  /// The vertices in another order: which of the part's comes first, second...
+  SkinnedMesh(const MeshPart& part, std::span<const std::uint32_t> order);
 
   std::size_t VertexCount() const { return bind_position_.size(); }
 
-  /// Positions and unit normals in the palette's space; both have VertexCount() places. Normals
-  /// follow the blended matrix, which is exact for rotations with uniform scale and mirrors.
+  /// Positions and unit normals in the palette's space of the first vertices, as many as both have
+  /// places (VertexCount() at most). Normals follow the blended matrix, which is exact for
+  /// rotations with uniform scale and mirrors.
   void Skin(std::span<const glm::mat4> palette, std::span<glm::vec3> positions,
             std::span<glm::vec3> normals) const;
 

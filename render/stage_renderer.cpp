@@ -45,7 +45,8 @@ Result<StageRenderer> StageRenderer::Create(const Options& options) {
   const bool is_software = DrawsOnProcessor();
   const int shadow_map_size =
       options.shadow_map_size > 0 ? options.shadow_map_size : (is_software ? 1024 : 2048);
-  Result<gl::StagePainter> painter = gl::StagePainter::Create(options.font, shadow_map_size);
+  Result<gl::StagePainter> painter =
+      gl::StagePainter::Create(options.font, shadow_map_size, options.coarseness);
   if (!painter) return Error{painter.error()};
   auto impl = std::make_unique<Impl>(*std::move(painter));
   impl->is_software = is_software;
@@ -66,11 +67,10 @@ CharacterId StageRenderer::Load(const Character& character) {
   buffers.indices = gl::Buffer::Make();
   glBindVertexArray(0);
   glBindBuffer(GL_ARRAY_BUFFER, buffers.indices.Name());
-  glBufferData(GL_ARRAY_BUFFER,
-               static_cast<GLsizeiptr>(prepared.indices.size() * sizeof(std::uint32_t)),
-               prepared.indices.data(), GL_STATIC_DRAW);
-  prepared.indices.clear();
-  prepared.indices.shrink_to_fit();
+  std::vector<std::uint32_t>& indices = prepared.detail.indices;
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+               indices.data(), GL_STATIC_DRAW);
+  indices = {};
   for (const Image& image : character.images) {
     buffers.images.push_back(gl::MakeColorTexture(image));
   }
@@ -104,7 +104,7 @@ void StageRenderer::Draw(const StageView& view, const DrawTarget& target) {
   glCullFace(GL_BACK);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 
-  impl_->painter.Prepare(view, impl_->characters, impl_->character_buffers);
+  impl_->painter.Prepare(view, target.height, impl_->characters, impl_->character_buffers);
   if (impl_->samples > 1 &&
       impl_->multisampled.Resize(target.width, target.height, impl_->samples)) {
     DrawTarget own = target;

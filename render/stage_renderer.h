@@ -24,6 +24,9 @@ class StageRenderer {
     std::span<const std::uint8_t> font;
     int samples = 0;          // of multisampling; 0 or 1: none. Clamped to what the driver has
     int shadow_map_size = 0;  // texels across; 0: what suits the driver
+    /// Pixels by which a body's surface may be off: meshes are as coarse as that allows. 0: all
+    /// are drawn as loaded.
+    float coarseness = 0.0f;
   };
   /// The sentence names the shader's file and line, or what the context lacks.
   static Result<StageRenderer> Create(const Options& options);

@@ -2,6 +2,7 @@
 #include "render/triangle_sink.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace ego {
@@ -47,13 +48,25 @@ UnitCapsule MakeUnitCapsule(int slices, int rings) {
   return unit;
 }
 
+/// The coarsest that is off by no more than `smallest`, at most as fine as its roundness wants.
+const UnitCapsule& UnitFor(Roundness roundness, double radius, double smallest) {
+  static const std::array<UnitCapsule, 5> kUnits = {MakeUnitCapsule(22, 5), MakeUnitCapsule(16, 4),
+                                                    MakeUnitCapsule(12, 3), MakeUnitCapsule(8, 2),
+                                                    MakeUnitCapsule(6, 2)};
+  constexpr std::array<int, 5> kSlices = {22, 16, 12, 8, 6};
+  std::size_t chosen = roundness == Roundness::kLimb ? 0 : 2;
+  while (chosen + 1 < kUnits.size() &&
+         radius * (1.0 - std::cos(kPi / kSlices[chosen + 1])) <= smallest) {
+    ++chosen;
+  }
+  return kUnits[chosen];
+}
+
 }  // namespace
 
 void AppendCapsule(const Vec3& end_a, double radius_a, const Vec3& end_b, double radius_b,
                    Roundness roundness, TriangleSink& sink) {
-  static const UnitCapsule kLimb = MakeUnitCapsule(22, 5);
-  static const UnitCapsule kBone = MakeUnitCapsule(12, 3);
-  const UnitCapsule& unit = roundness == Roundness::kLimb ? kLimb : kBone;
+  const UnitCapsule& unit = UnitFor(roundness, std::max(radius_a, radius_b), sink.smallest);
 
   const Vec3 axis = end_b - end_a;
   const double length = glm::length(axis);

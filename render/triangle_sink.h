@@ -16,6 +16,7 @@ struct TriangleSink {
   std::vector<glm::vec3>& normals;      // unit
   std::vector<std::uint32_t>& indices;  // counted from `first_vertex`
   std::size_t first_vertex = 0;         // where the mesh begins in `positions`
+  double smallest = 0.0;                // metres that a round surface may be off; 0: at its best
 
   std::uint32_t Next() const { return static_cast<std::uint32_t>(positions.size() - first_vertex); }
 };

@@ -32,8 +32,10 @@ glm::vec3 Encoded(const glm::vec3& linear) {
 
 }  // namespace
 
-Result<StagePainter> StagePainter::Create(std::span<const std::uint8_t> font, int shadow_map_size) {
+Result<StagePainter> StagePainter::Create(std::span<const std::uint8_t> font, int shadow_map_size,
+                                          float coarseness) {
   StagePainter painter(font);
+  painter.coarseness_ = coarseness;
   Result<StagePrograms> programs = StagePrograms::Build();
   if (!programs) return Error{programs.error()};
   painter.programs_ = *std::move(programs);
@@ -70,10 +72,10 @@ void StagePainter::SetLight(const Program& program) const {
   program.Set("camera_position", eye_);
 }
 
-void StagePainter::Prepare(const StageView& view, const CharacterStore& characters,
+void StagePainter::Prepare(const StageView& view, int height, const CharacterStore& characters,
                            const CharacterBufferStore& character_buffers) {
   character_buffers_ = &character_buffers;
-  list_.Build(view, characters);
+  list_.Build(view, characters, {coarseness_, 0.5 * height / std::tan(0.5 * view.camera.fov_y)});
   buffers_.Upload(list_);
   eye_ = glm::vec3(view.camera.Position());
   Box3 box = list_.bounds;

@@ -23,12 +23,15 @@ using CharacterBufferStore = std::map<std::uint32_t, CharacterBuffers>;
 /// seen through from far to near, what is drawn over everything, glows and name plates.
 class StagePainter {
  public:
-  /// `shadow_map_size`: texels across. The sentence tells what the context lacks.
-  static Result<StagePainter> Create(std::span<const std::uint8_t> font, int shadow_map_size);
+  /// `shadow_map_size`: texels across; `coarseness`: pixels by which surfaces may be off. The
+  /// sentence tells what the context lacks.
+  static Result<StagePainter> Create(std::span<const std::uint8_t> font, int shadow_map_size,
+                                     float coarseness);
 
-  /// Poses and uploads what the view shows and draws the shadow map. Characters and their buffers
+  /// Poses and uploads what the view shows in a picture of this height and draws the shadow map.
+  /// Characters and their buffers
   /// are used until DrawScene has returned.
-  void Prepare(const StageView& view, const CharacterStore& characters,
+  void Prepare(const StageView& view, int height, const CharacterStore& characters,
                const CharacterBufferStore& character_buffers);
   /// Draws what was prepared into the target's rectangle.
   void DrawScene(const StageView& view, const DrawTarget& target);
@@ -52,6 +55,7 @@ class StagePainter {
   StageBuffers buffers_;
   ShadowTarget shadow_;
   int shadow_map_size_ = 0;
+  float coarseness_ = 0.0f;
   TextAtlas atlas_;
 
   // Of the picture being drawn.
