@@ -305,7 +305,8 @@ int RunStudio(const std::vector<std::filesystem::path>& files, const std::string
       Window::Open("Egostudio", start.window_width, start.window_height);
   if (!window) return Fail(window.error());
   const std::vector<std::uint8_t> font = ReadFace(Face::kTextStrong);
-  Result<StageRenderer> renderer = StageRenderer::Create({.font = font, .samples = 0, .coarseness = 0.5f});
+  Result<StageRenderer> renderer =
+      StageRenderer::Create({.font = font, .samples = 0, .coarseness = 0.8f});
   if (!renderer) return Fail(renderer.error());
   Studio studio(*std::move(window), *std::move(renderer));
   studio.Restore(start);

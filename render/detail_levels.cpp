@@ -4,6 +4,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/base/check.h"
@@ -81,7 +82,7 @@ std::vector<Step> Coarsen(const Whole& whole) {
         kWorthwhile * static_cast<double>(finer.triangles.size())) {
       break;
     }
-    step.error = finer.error + error * scale;
+    step.error = std::hypot(finer.error, error * scale);  // independent of each other
     steps.push_back(std::move(step));
   }
   return steps;

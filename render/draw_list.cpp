@@ -146,6 +146,7 @@ void DrawList::End(Group group, const Vec3& eye, std::size_t first_vertex) {
   const Box3 box{Vec3(low), Vec3(high)};
   group.distance = box.IsEmpty() ? 0.0 : glm::length(box.Center() - eye);
   bounds.Add(box);
+  group.box = box;
   groups.push_back(group);
 }
 

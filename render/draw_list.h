@@ -66,6 +66,7 @@ struct DrawList {
     bool casts_shadow = true;  // and lies in that of others
     bool edges = false;        // drawn as lines as well
     glm::vec4 rim{0.0f};
+    Box3 box;
     std::uint32_t first_mesh = 0, mesh_count = 0;
   };
   struct Spot {

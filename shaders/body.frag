@@ -6,18 +6,18 @@ in vec3 position_ws;
 in vec3 normal_ws;
 in vec3 shadow_position;
 in vec2 texture_uv;
-in vec4 base_color;
 
 #ifdef TEXTURED
 uniform sampler2D base_map;
 uniform float alpha_cutoff;  // discards what is thinner; 0: nothing
 #endif
-uniform vec4 rim;  // linear colour and strength
+uniform vec4 color;  // linear, with opacity
+uniform vec4 rim;    // linear colour and strength
 
 out vec4 pixel;
 
 void main() {
-  vec4 base = base_color;
+  vec4 base = color;
 #ifdef TEXTURED
   base *= texture(base_map, texture_uv);
   if (base.a < alpha_cutoff) discard;
@@ -30,6 +30,6 @@ void main() {
   light += kKey * key * Lit(shadow_position);
   float edge = 1.0 - facing;
   edge *= edge * edge;
-  vec3 color = Expose(base.rgb * light) + edge * (rim.rgb * rim.a + (0.035 + 0.035 * n.y) * kSky);
-  pixel = vec4(Encode(color), base.a);
+  vec3 seen = Expose(base.rgb * light) + edge * (rim.rgb * rim.a + (0.035 + 0.035 * n.y) * kSky);
+  pixel = vec4(Encode(seen), base.a);
 }

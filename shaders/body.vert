@@ -5,19 +5,16 @@ layout(location = 2) in vec2 uv;
 
 uniform mat4 view_projection;
 uniform mat4 shadow_matrix;
-uniform vec4 color;  // linear, with opacity
 
 out vec3 position_ws;
 out vec3 normal_ws;
 out vec3 shadow_position;
 out vec2 texture_uv;
-out vec4 base_color;
 
 void main() {
   position_ws = position;
   normal_ws = normal;
   texture_uv = uv;
-  base_color = color;
   shadow_position = (shadow_matrix * vec4(position + 0.012 * normal, 1.0)).xyz;
   gl_Position = view_projection * vec4(position, 1.0);
 }

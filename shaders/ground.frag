@@ -22,16 +22,17 @@ out vec4 pixel;
 
 // How much of the pixel a line of this width covers, for lines at every multiple of `step`.
 // Where lines come closer than pixels it settles at their mean.
-float Line(vec2 p, vec2 footprint, float step, float width) {
-  vec2 d = abs(fract(p / step + 0.5) - 0.5) * step;
+float Line(vec2 p, vec2 footprint, vec2 per_footprint, float step, float width) {
+  vec2 d = abs(fract(p * (1.0 / step) + 0.5) - 0.5) * step;
   vec2 w = max(vec2(width), footprint);
-  vec2 cover = clamp((w - d) / max(footprint, 1e-5) , 0.0, 1.0) * sqrt(width / w);
-  return max(cover.x, cover.y);
+  vec2 cover = clamp((w - d) * per_footprint, 0.0, 1.0) * inversesqrt(w);
+  return max(cover.x, cover.y) * sqrt(width);
 }
 
 void main() {
   vec2 p = position_ws.xz;
   vec2 footprint = fwidth(p);
+  vec2 per_footprint = 1.0 / max(footprint, 1e-5);
   float from_pool = length(p - pool_center.xz) / pool_radius;
   float pool = 1.0 / (1.0 + from_pool * from_pool * from_pool);
   float away = length(position_ws - camera_position);
@@ -43,8 +44,8 @@ void main() {
 #else
   const float lit = 1.0;
 #endif
-  float grid = max(0.75 * Line(p, footprint, 1.0, 0.007),
-                   0.26 * near_fade * Line(p, footprint, 0.25, 0.004));
+  float grid = max(0.75 * Line(p, footprint, per_footprint, 1.0, 0.007),
+                   0.26 * near_fade * Line(p, footprint, per_footprint, 0.25, 0.004));
   vec3 color = mix(floor_dark + lit * floor_gain, line_dark + lit * line_gain, grid_strength * grid);
   color = mix(room_color, color, pool * far_fade);
   vec2 d = gl_FragCoord.xy - picture_center;

@@ -57,15 +57,6 @@ void StageBuffers::Create() {
   glBindVertexArray(floor_array_.Name());
   glBindBuffer(GL_ARRAY_BUFFER, floor_.Name());
   Attribute(0, 2, sizeof(glm::vec2), 0);
-  std::vector<std::uint16_t> patches;  // the middle one first
-  for (const int cell : {4, 0, 1, 2, 3, 5, 6, 7, 8}) {
-    const auto corner = static_cast<std::uint16_t>(cell / 3 * 4 + cell % 3);
-    for (const int step : {0, 4, 1, 1, 4, 5}) {  // seen from above: counter-clockwise
-      patches.push_back(static_cast<std::uint16_t>(corner + step));
-    }
-  }
-  Fill(GL_ELEMENT_ARRAY_BUFFER, floor_indices_, patches.data(),
-       patches.size() * sizeof(std::uint16_t), GL_STATIC_DRAW);
 
   glBindVertexArray(plate_array_.Name());
   glBindBuffer(GL_ARRAY_BUFFER, plates_.Name());
@@ -134,16 +125,38 @@ void StageBuffers::DrawSquare() const {
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void StageBuffers::UploadFloor(const std::array<float, 4>& x, const std::array<float, 4>& z) {
-  std::array<glm::vec2, 16> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = {x[i % 4], z[i / 4]};
+void StageBuffers::UploadFloor(std::span<const float> x, std::span<const float> z,
+                               std::span<const std::uint8_t> shaded) {
+  std::vector<glm::vec2> corners;
+  for (const float along_z : z) {
+    for (const float along_x : x) corners.emplace_back(along_x, along_z);
+  }
+  std::vector<std::uint16_t> cells;
+  const auto append = [&](bool wanted) {
+    for (std::size_t row = 0; row + 1 < z.size(); ++row) {
+      for (std::size_t column = 0; column + 1 < x.size(); ++column) {
+        if ((shaded[row * (x.size() - 1) + column] != 0) != wanted) continue;
+        const std::size_t a = row * x.size() + column;
+        const std::size_t c = a + x.size();
+        for (const std::size_t corner : {a, c, a + 1, a + 1, c, c + 1}) {  // seen from above
+          cells.push_back(static_cast<std::uint16_t>(corner));
+        }
+      }
+    }
+    return static_cast<GLsizei>(cells.size());
+  };
+  shaded_floor_indices_ = append(true);
+  plain_floor_indices_ = append(false) - shaded_floor_indices_;
   Stream(GL_ARRAY_BUFFER, floor_, std::span<const glm::vec2>(corners));
+  glBindVertexArray(floor_array_.Name());
+  Stream(GL_ELEMENT_ARRAY_BUFFER, floor_indices_, std::span<const std::uint16_t>(cells));
 }
 
-void StageBuffers::DrawFloor(bool middle) const {
+void StageBuffers::DrawFloor(bool shaded) const {
   glBindVertexArray(floor_array_.Name());
-  glDrawElements(GL_TRIANGLES, middle ? 6 : 48, GL_UNSIGNED_SHORT,
-                 Offset(middle ? 0 : 6 * sizeof(std::uint16_t)));
+  const std::size_t first = shaded ? 0 : static_cast<std::size_t>(shaded_floor_indices_);
+  glDrawElements(GL_TRIANGLES, shaded ? shaded_floor_indices_ : plain_floor_indices_,
+                 GL_UNSIGNED_SHORT, Offset(first * sizeof(std::uint16_t)));
 }
 
 void StageBuffers::DrawPlates() const {

@@ -33,10 +33,12 @@ class StageBuffers {
                 const CharacterBuffers* character) const;
   void DrawSpots(bool glows) const;
   void DrawSquare() const;
-  /// The floor as three by three patches that share their corners: lines at these x and z.
-  void UploadFloor(const std::array<float, 4>& x, const std::array<float, 4>& z);
-  /// The middle patch, or the eight around it.
-  void DrawFloor(bool middle) const;
+  /// The floor as cells that share their corners, between these lines; `shaded` tells row by row
+  /// along z which of them a shadow can reach.
+  void UploadFloor(std::span<const float> x, std::span<const float> z,
+                   std::span<const std::uint8_t> shaded);
+  /// The cells that are shaded, or all the others.
+  void DrawFloor(bool shaded) const;
   void DrawPlates() const;
   GLuint GlyphTexture() const { return glyphs_.Name(); }
 
@@ -47,6 +49,7 @@ class StageBuffers {
   Texture glyphs_;
   std::size_t shadow_spots_ = 0, glow_spots_ = 0;
   GLsizei plate_vertices_ = 0;
+  GLsizei shaded_floor_indices_ = 0, plain_floor_indices_ = 0;
 };
 
 }  // namespace ego::gl

@@ -182,6 +182,46 @@ void StagePainter::DrawEdges() {
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
+// Cells of the floor, and which of them lie in somebody's shadow: only they are worth looking up.
+void StagePainter::UploadFloor(const Vec3& low, const Vec3& high) {
+  constexpr std::array<std::size_t, 2> kCells = {24, 10};  // along x and z
+  std::vector<Box3> shadows;
+  Box3 all;
+  for (const DrawList::Group& group : list_.groups) {
+    if (!group.casts_shadow || group.box.IsEmpty()) continue;
+    Box3& box = shadows.emplace_back(ShadowOnGround(group.box));
+    box.min -= 0.05;
+    box.max += 0.05;
+    all.Add(box);
+  }
+  if (all.IsEmpty()) all.Add(Vec3{0.0});
+  std::array<std::vector<float>, 2> lines;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int axis = i == 0 ? 0 : 2;
+    const double from = glm::clamp(all.min[axis], low[axis], high[axis]);
+    const double to = glm::clamp(all.max[axis], low[axis], high[axis]);
+    lines[i].push_back(static_cast<float>(low[axis]));
+    for (std::size_t k = 0; k <= kCells[i]; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(kCells[i]);
+      lines[i].push_back(static_cast<float>(glm::mix(from, to, share)));
+    }
+    lines[i].push_back(static_cast<float>(high[axis]));
+  }
+  const auto& [x, z] = lines;
+  std::vector<std::uint8_t> shaded;
+  for (std::size_t row = 0; row + 1 < z.size(); ++row) {
+    for (std::size_t column = 0; column + 1 < x.size(); ++column) {
+      shaded.push_back(std::any_of(shadows.begin(), shadows.end(), [&](const Box3& box) {
+        return box.min.x < static_cast<double>(x[column + 1]) &&
+               box.max.x > static_cast<double>(x[column]) &&
+               box.min.z < static_cast<double>(z[row + 1]) &&
+               box.max.z > static_cast<double>(z[row]);
+      }));
+    }
+  }
+  buffers_.UploadFloor(x, z, shaded);
+}
+
 void StagePainter::DrawFloorAndRoom(const StageView& view, const DrawTarget& target) {
   const glm::vec2 center(static_cast<float>(target.x) + 0.5f * static_cast<float>(target.width),
                          static_cast<float>(target.y) + 0.5f * static_cast<float>(target.height));
@@ -194,21 +234,13 @@ void StagePainter::DrawFloorAndRoom(const StageView& view, const DrawTarget& tar
     if (box.IsEmpty()) box.Add(Vec3{0.0});
     const Vec3 extent = glm::min(box.max - box.min, Vec3{kLargestStage});
     const Vec3 reach{kGroundReach};
-    const Box3 shaded = ShadowOnGround(box);
     const Vec3 low = view.camera.target_ws - reach, high = view.camera.target_ws + reach;
-    const Vec3 inner_low = glm::clamp(shaded.min - 0.05, low, high);
-    const Vec3 inner_high = glm::clamp(shaded.max + 0.05, low, high);
-    const auto lines = [&](int axis) {
-      return std::array<float, 4>{
-          static_cast<float>(low[axis]), static_cast<float>(inner_low[axis]),
-          static_cast<float>(inner_high[axis]), static_cast<float>(high[axis])};
-    };
-    buffers_.UploadFloor(lines(0), lines(2));
+    UploadFloor(low, high);
     const glm::vec3 floor_dark = Encoded(kFloorInShadow * Linear(look::kFloor));
     const glm::vec3 line_dark = Encoded(kLineInShadow * Linear(look::kGrid));
     glEnable(GL_CULL_FACE);  // from below the floor is glass
-    for (const bool middle : {true, false}) {
-      const Program& program = middle && shadows_ ? programs_.ground_shadowed : programs_.ground;
+    for (const bool shaded : {true, false}) {
+      const Program& program = shaded && shadows_ ? programs_.ground_shadowed : programs_.ground;
       SetLight(program);
       program.Set("room_color", look::kRoom);
       program.Set("floor_dark", floor_dark);
@@ -220,7 +252,7 @@ void StagePainter::DrawFloorAndRoom(const StageView& view, const DrawTarget& tar
       program.Set("grid_strength", 0.8f);
       program.Set("picture_center", center);
       program.Set("vignette", vignette);
-      buffers_.DrawFloor(middle);
+      buffers_.DrawFloor(shaded);
     }
 
     if (view.shadows) {

@@ -44,6 +44,7 @@ class StagePainter {
   void DrawGroup(const DrawList::Group& group, Draws draws, const glm::mat4& clip);
   void DrawGroups(Pass pass);
   void DrawEdges();
+  void UploadFloor(const Vec3& low, const Vec3& high);
   void DrawFloorAndRoom(const StageView& view, const DrawTarget& target);
   void DrawGlows(const Camera& camera);
   void DrawPlates(const StageView& view, const DrawTarget& target);

@@ -21,7 +21,8 @@ class ColorTarget {
   Renderbuffer depth_;
 };
 
-/// A depth picture that shaders compare with (sampler2DShadow); outside of it everything is lit.
+/// A depth picture that shaders compare with (sampler2DShadow); outside of it things are lit as at
+/// its edge, where nothing is drawn.
 class ShadowTarget {
  public:
   bool Resize(int width, int height);
