@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <thread>
 #include <utility>
 
@@ -19,6 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kDemoAvatars = 5;
+constexpr auto kBesideLoading = 120ms;  // from picture to picture
 constexpr auto kMessageStays = 8s;
 constexpr auto kSettles = 400ms;  // after a change the panels may need a few pictures more
 
@@ -57,10 +59,20 @@ void Studio::OpenMotion(const std::string& name) {
 }
 
 void Studio::OpenDemoCast() {
+  // Every other one is made beside the loader's thread: two at a time.
+  std::shared_future<LoadedAvatar> ahead;
   for (std::size_t i = 0; i < std::min(kDemoAvatars, DemoAvatarCount()); ++i) {
+    std::shared_future<LoadedAvatar> made;
+    if (i % 2 == 1) {
+      made = std::async(std::launch::async, [i, before = ahead] {
+               if (before.valid()) before.wait();
+               return LoadDemoAvatar(i);
+             }).share();
+      ahead = made;
+    }
     loader_.Add("Preparing the demo's cast",
-                [i](const Progress&) -> Result<BackgroundLoader::Loaded> {
-                  return BackgroundLoader::Loaded(LoadDemoAvatar(i));
+                [i, made](const Progress&) -> Result<BackgroundLoader::Loaded> {
+                  return BackgroundLoader::Loaded(made.valid() ? made.get() : LoadDemoAvatar(i));
                 });
   }
 }
@@ -276,6 +288,12 @@ void Studio::RunFrame() {
   if (now - last_change_ > kSettles && !loader_.activity()) return;
   if (window_->width() == 0 || window_->height() == 0) {
     std::this_thread::sleep_for(50ms);
+    return;
+  }
+  // Where drawing takes the processor, it must not slow down what is being loaded.
+  if (loader_.activity() && !window_->had_input() && picture_.renderer().IsSoftware() &&
+      now - last_frame_ < kBesideLoading) {
+    std::this_thread::sleep_for(10ms);
     return;
   }
   layout_.Divide(static_cast<float>(window_->width()), static_cast<float>(window_->height()),

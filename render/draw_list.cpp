@@ -190,7 +190,7 @@ void DrawList::AddCharacter(const Figure& figure, const StageCharacter& characte
   for (const glm::mat4& m : palette_) scale = std::max(scale, glm::length(glm::vec3(m[0])));
   const double smallest = Smallest(points_, figure, eye);
   std::size_t chosen = 0;
-  while (chosen + 1 < character.detail.levels.size() &&
+  while (!shown.edges && chosen + 1 < character.detail.levels.size() &&
          static_cast<double>(scale * character.detail.levels[chosen + 1].error) <= smallest) {
     ++chosen;
   }

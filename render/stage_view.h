@@ -29,7 +29,7 @@ struct CharacterPart {
   std::span<const Mat4> node_global;
   glm::vec3 tint{1.0f};  // multiplies the materials, linear
   float opacity = 1.0f;  // below one: see-through, so that what is inside shows
-  bool edges = false;    // the mesh's edges as lines over its skin
+  bool edges = false;    // the mesh's edges as lines over its skin, all of them
 };
 
 /// The crude surface of a body: what the method knows of the skin.
