@@ -324,7 +324,7 @@ int RunStudio(const std::vector<std::filesystem::path>& files, const std::string
   if (!window) return Fail(window.error());
   const std::vector<std::uint8_t> font = ReadFace(Face::kTextStrong);
   Result<StageRenderer> renderer =
-      StageRenderer::Create({.font = font, .samples = 0, .coarseness = 0.8f});
+      StageRenderer::Create({.font = font, .samples = 0, .coarseness = 0.5f});
   if (!renderer) return Fail(renderer.error());
   Studio studio(*std::move(window), *std::move(renderer));
   studio.Restore(start);

@@ -58,7 +58,7 @@ struct Demo {
     if (!demo) {
       Result<OffscreenContext> context = OffscreenContext::Create();
       if (!context) return nullptr;
-      Result<StageRenderer> renderer = StageRenderer::Create({.font = {}, .coarseness = 0.8f});
+      Result<StageRenderer> renderer = StageRenderer::Create({.font = {}, .coarseness = 0.5f});
       if (!renderer) return nullptr;
       demo.emplace(*std::move(context), *std::move(renderer));
     }
