@@ -24,10 +24,19 @@ constexpr double kHandStep = 0.30;
 
 /// In heights. What lies deeper than the first, and a contact farther off than the second, counts
 /// less and less: which way leads out is undecided deep inside, and arms that do not fit between
-/// the parts of a thick body are not to be thrown from one to the other.
+/// the parts of a thick body are not to be thrown from one to the other. From inside contacts count
+/// even less: the way out turns over where faces are equally near.
 constexpr double kDeep = 0.02;
 constexpr double kFarContact = 0.03;
 double Bounded(double x) { return 1.0 / (1.0 + x * x); }
+/// Where one way leads out of trunk or head and it is the performer's own, it does not turn over:
+/// from inside a contact then counts this much farther instead.
+constexpr double kDecidedContact = 1.25;
+/// Cosine of both ways above which they begin to count as the same.
+constexpr double kSameWay = 0.5;
+/// Length of a gradient above which one way begins to lead out: where faces that look different
+/// ways are equally near, it is short.
+constexpr double kOneWay = 0.8;
 
 /// A wish of one sample: to move by `value` metres along `normal`.
 struct Row {
@@ -51,6 +60,7 @@ struct MeshMemory {
   struct Entry {
     SignedDistance at;
     Vec3 center{0.0};
+    double one_way = 0.0;  // 1 where the gradient says which way leads out
     bool measured = false;
   };
   std::array<std::array<Entry, 2>, kClearanceSampleCount> entry;
@@ -61,6 +71,7 @@ bool MeasureMesh(const BodyObstacles& body, std::size_t obstacle, const ArmSampl
                  bool anew, MeshMemory::Entry& memory, SignedDistance& out) {
   if (anew || !memory.measured) {
     if (!body.Distance(obstacle, sample, memory.at)) return false;
+    memory.one_way = Smoothstep((glm::length(memory.at.gradient) - kOneWay) / (1.0 - kOneWay));
     memory.at.gradient = NormalizedOr(memory.at.gradient, Vec3{0.0});
     memory.center = sample.center;
     memory.measured = true;
@@ -94,6 +105,19 @@ bool MeasureCapsule(const AdaptState& state, const CapsuleObstacle& obstacle,
 /// Clearance that is kept of the performer's own: all of it where there is little.
 double Need(double clearance, double margin) {
   return clearance <= 0.0 ? clearance : margin * -std::expm1(-clearance / margin);
+}
+
+/// Whether the way out of trunk or head, `gradient`, is the performer's own: 0 to 1.
+double Decided(const AdaptState& state, const Clearance& performer, const Vec3& gradient) {
+  const double along = glm::dot(gradient, state.posed.hips * performer.direction_ls);
+  return Smoothstep((along - kSameWay) / (1.0 - kSameWay));
+}
+
+/// Share of what a contact wants, `wanted` in heights out of the obstacle, that is asked for.
+double ContactShare(double wanted, double decided) {
+  const double bounded = Bounded(wanted / kFarContact);
+  if (wanted <= 0.0) return bounded;
+  return glm::mix(bounded * bounded, Bounded(wanted / (kDecidedContact * kFarContact)), decided);
 }
 
 /// Some samples of an arm in one ball, to leave out together what is far from all of them.
@@ -160,10 +184,12 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
         const double pull =
             kHandMoveDamping * touching / (1.0 - touching + kHandMoveDamping / most_weight);
         const double wanted = clearance - now.distance;
-        const double bounded = Bounded(wanted / (kFarContact * height));
-        // From inside even less: the way out turns over where faces are equally near.
-        rows.Add(
-            {s, now.gradient, share * wanted * bounded * (wanted > 0.0 ? bounded : 1.0), pull});
+        // Only where it really touches.
+        const double decided = o < kFirstCapsuleObstacle
+                                   ? touching * touching * memory.entry[s][o].one_way *
+                                         Decided(state, performer, now.gradient)
+                                   : 0.0;
+        rows.Add({s, now.gradient, share * wanted * ContactShare(wanted / height, decided), pull});
       }
       if (now.distance >= most) continue;
       const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;

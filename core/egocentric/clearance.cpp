@@ -88,6 +88,7 @@ void MeasureClearance(const Body& performer, const PosedBody& posed, Limb arm,
         SignedDistance measured;
         clearance.known = obstacles.Distance(o, sample, measured);
         clearance.distance = measured.distance * per_height;
+        clearance.direction_ls = NormalizedOr(measured.gradient, Vec3{0.0}) * posed.hips;
         continue;
       }
       const CapsuleObstacle& obstacle = capsules[o - kFirstCapsuleObstacle];

@@ -99,9 +99,11 @@ inline constexpr std::size_t kObstacleCount = 9;
 struct Clearance {
   double distance = 0.0;
   bool known = false;
-  Vec3 direction_ls{0.0};  // capsules: from the axis, in the obstacle's bone frame
-  double trust = 1.0;      // capsules: fades where the sample nears the axis, where no direction
-                           // leads out
+  /// The way out: of trunk and head in the hips' frame, of a capsule from its axis in its bone
+  /// frame.
+  Vec3 direction_ls{0.0};
+  double trust = 1.0;  // capsules: fades where the sample nears the axis, where no direction
+                       // leads out
 };
 
 /// Which readings of the representation were used; `Adapt` follows them.
