@@ -63,8 +63,8 @@ void AdaptState::ReadLimbs() {
 
 void AdaptState::MoveRoot(const Vec3& by) {
   pose.root_ws += by;
-  PlaceBody(avatar, constants, pose, posed);
-  ReadLimbs();
+  MovePosedBody(by, posed);
+  for (LimbChain& c : chain) c.base_ws += by;
 }
 
 void AdaptState::Apply(Limb l, const LimbPosture& posture) {

@@ -183,6 +183,23 @@ void PlaceHand(const Body& body, const BodyConstants& constants, Limb arm, Posed
   hand.frame = rotation * constants.segment_frame[2 * Index(arm) + 1];
 }
 
+void MovePosedBody(const Vec3& by, PosedBody& posed) {
+  for (Vec3& p : posed.pose.position_ws) p += by;
+  for (Vec3& p : posed.sample) p += by;
+  const Lanes3 both = Splat(by);
+  for (TrianglePair& triangle : posed.triangle) {
+    triangle.a += both;
+    triangle.center += both;
+  }
+  const auto move = [&](PosedCapsule& capsule) {
+    capsule.start += by;
+    capsule.end += by;
+  };
+  for (PosedCapsule& capsule : posed.capsule) move(capsule);
+  for (PosedCapsule& hand : posed.hand) move(hand);
+  for (Vec3& p : posed.point) p += by;
+}
+
 void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
                PosedBody& posed) {
   posed.pose = ForwardKinematics(body.skeleton, pose);

@@ -66,6 +66,9 @@ struct PosedBody {
 void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
                PosedBody& posed);
 
+/// Everything moved without a turn.
+void MovePosedBody(const Vec3& by, PosedBody& posed);
+
 /// A foot seen from its ankle: where the sole would be if it lay flat around whatever it stands on.
 struct SoleOffset {
   Vec3 middle{0.0};  // from the ankle to the middle between heel and ball, world axes
