@@ -207,7 +207,8 @@ void StagePainter::UploadFloor(const Vec3& low, const Vec3& high) {
     }
     lines[i].push_back(static_cast<float>(high[axis]));
   }
-  const auto& [x, z] = lines;
+  const auto& x = lines[0];
+  const auto& z = lines[1];
   std::vector<std::uint8_t> shaded;
   for (std::size_t row = 0; row + 1 < z.size(); ++row) {
     for (std::size_t column = 0; column + 1 < x.size(); ++column) {
