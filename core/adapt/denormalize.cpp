@@ -60,17 +60,28 @@ class LegRegion {
   std::size_t count_ = 0;
 };
 
-/// Sum of lambda-hat (x + v) over one crude mesh (see MeshRelations).
-Vec3 MeshSum(const AdaptState& state, LimbPoint j, const MeshRelations& relations,
-             const MeshPaths& paths, const std::array<double, kSampleCount>& weight,
-             std::size_t first, std::size_t end) {
-  Vec3 position{0.0};
-  for (std::size_t s = first; s < end; ++s) position += weight[s] * state.posed.sample[s];
-  Vec3 displacement = OwnThickness(state, j) * relations.inside;
-  for (std::size_t i = 0; i < paths.length; ++i) {
-    displacement += state.constants.bone_length[paths.bone[i]] * relations.along[i];
+/// Sum of lambda-hat (x + v) over one crude mesh (see MeshRelations) for the points of a group,
+/// those from `first` on; its samples are those from `begin` up to `end`.
+Lanes3 MeshSum(const AdaptState& state, std::size_t group, std::size_t first,
+               const MeshRelations& relations, const MeshPaths& paths, std::size_t begin,
+               std::size_t end) {
+  const MeshCoordinates& mesh = state.egocentric.mesh[group];
+  Lanes3 position{};
+  for (std::size_t s = begin; s < end; ++s) {
+    position += Load<Lanes>(mesh.sample[s], first) * Splat(state.posed.sample[s]);
   }
-  return position + state.posed.hips * displacement;
+  const PointGroup& point = kPointGroups[group];
+  const Lanes thickness = {OwnThickness(state, point[first]),
+                           OwnThickness(state, point[first + 1])};
+  Lanes3 displacement = thickness * Load<Lanes>(relations.inside, first);
+  for (std::size_t i = 0; i < paths.length; ++i) {
+    const Lanes length = {state.constants.bone_length[paths.bone[i][first]],
+                          state.constants.bone_length[paths.bone[i][first + 1]]};
+    displacement += length * Load<Lanes>(relations.along[i], first);
+  }
+  const Mat3& hips = state.posed.hips;
+  return position + displacement.x * Splat(hips[0]) + displacement.y * Splat(hips[1]) +
+         displacement.z * Splat(hips[2]);
 }
 
 /// A wanted position that depends on the partner's end joint: constant + on_partner * partner.
@@ -219,23 +230,28 @@ Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
 }
 
 void SumBody(AdaptState& state) {
-  const std::size_t points = state.egocentric.form.hand_points ? kLimbPointCount : kLimbJointCount;
-  for (std::size_t k = 0; k < points; ++k) {
-    const auto j = static_cast<LimbPoint>(k);
-    const PointCoordinates& coordinates = state.egocentric.point[k];
-    const Vec3 trunk = MeshSum(state, j, coordinates.trunk, PathsFromTrunk(j), coordinates.sample,
-                               0, kTrunkSampleCount);
-    const Vec3 head = MeshSum(state, j, coordinates.head, PathsFromHead(j), coordinates.sample,
-                              kTrunkSampleCount, kSampleCount);
-    BodySum& sum = state.body_sum[k];
-    sum = {trunk + head, coordinates.trunk.importance + coordinates.head.importance, Vec3{0.0}};
-    if (!IsArm(LimbOf(j))) continue;
-    const LegRegion region(state, j);
-    const auto part = [&](const Vec3& position, double importance) {
-      return importance > 0.0 ? importance * region.Inside(position / importance) : Vec3{0.0};
-    };
-    sum.initial =
-        part(trunk, coordinates.trunk.importance) + part(head, coordinates.head.importance);
+  for (std::size_t group = 0; group < kPointGroupCount; ++group) {
+    const MeshCoordinates& mesh = state.egocentric.mesh[group];
+    for (std::size_t first = 0; first < kPointGroupSize; first += kLaneCount<Lanes>) {
+      if (IsHandPoint(kPointGroups[group][first]) && !state.egocentric.form.hand_points) continue;
+      const Lanes3 trunk =
+          MeshSum(state, group, first, mesh.trunk, PathsFromTrunk(group), 0, kTrunkSampleCount);
+      const Lanes3 head = MeshSum(state, group, first, mesh.head, PathsFromHead(group),
+                                  kTrunkSampleCount, kSampleCount);
+      for (std::size_t k = 0; k < kLaneCount<Lanes>; ++k) {
+        const double trunk_importance = mesh.trunk.importance[first + k];
+        const double head_importance = mesh.head.importance[first + k];
+        const LimbPoint j = kPointGroups[group][first + k];
+        BodySum& sum = state.body_sum[Index(j)];
+        sum = {trunk.At(k) + head.At(k), trunk_importance + head_importance, Vec3{0.0}};
+        if (!IsArm(LimbOf(j))) continue;
+        const LegRegion region(state, j);
+        const auto part = [&](const Vec3& position, double importance) {
+          return importance > 0.0 ? importance * region.Inside(position / importance) : Vec3{0.0};
+        };
+        sum.initial = part(trunk.At(k), trunk_importance) + part(head.At(k), head_importance);
+      }
+    }
   }
   for (const Limb limb : kLimbs) {
     const NormalCoordinates& normal = state.egocentric.normal[Index(limb)];

@@ -7,6 +7,7 @@
 #include "core/body/body_surface.h"
 #include "core/egocentric/kinematic_path.h"
 #include "core/egocentric/limb_point.h"
+#include "core/geometry/lanes.h"
 
 namespace ego {
 
@@ -22,15 +23,21 @@ struct NormalizedDistance {
   PathCosines cosine{};  // C
 };
 
-/// All tuples of equation 6 against the triangles of one crude mesh, summed. On another body every
-/// term lambda-hat (x + v) of equation 2 is linear in that body's own samples, bone lengths and
-/// thickness, whatever triangle it belongs to; only their coefficients are kept:
+/// All tuples of equation 6 against the triangles of one crude mesh, summed, for the four points of
+/// a group side by side. On another body every term lambda-hat (x + v) of equation 2 is linear in
+/// that body's own samples, bone lengths and thickness, whatever triangle it belongs to; only their
+/// coefficients are kept:
 ///   sum of lambda-hat (x + v) = sum over samples of weight * sample'
 ///                             + R_hips (thickness' * inside + sum over bones of length' * along).
 struct MeshRelations {
-  double importance = 0.0;  // sum of lambda-hat
-  Vec3 inside{0.0};         // of lambda-hat v-hat's direction, as far as the thickness fills it
-  std::array<Vec3, kMaxPathLength> along{};  // in the order of MeshPaths::bone
+  Quad importance{};   // sum of lambda-hat
+  QuadVectors inside;  // of lambda-hat v-hat's direction, as far as the thickness fills it
+  std::array<QuadVectors, kMaxPathLength> along;  // by column of MeshPaths; as many as it has
+};
+struct MeshCoordinates {
+  std::array<Quad, kSampleCount> sample{};  // of lambda-hat x-hat, trunk's samples first
+  MeshRelations trunk;
+  MeshRelations head;
 };
 
 /// One tuple of equation 6 against a limb's capsule.
@@ -51,11 +58,9 @@ struct GroundRelation {
   double on_ball = 0.5;  // 0: stands on the heel, 1: on the ball
 };
 
-/// Egocentric coordinates of one point: E_j of equation 6.
+/// Egocentric coordinates of one point: E_j of equation 6. Those against trunk and head stand in
+/// `EgocentricPose::mesh`.
 struct PointCoordinates {
-  std::array<double, kSampleCount> sample{};  // of lambda-hat x-hat, trunk's samples first
-  MeshRelations trunk;
-  MeshRelations head;
   double mesh_importance_max = 0.0;  // largest lambda-hat of a single triangle
   std::array<CapsuleRelation, kOtherSegmentCount> capsule;
   CapsuleRelation hand;   // points of an arm: the other hand as a capsule
@@ -123,6 +128,7 @@ struct EgocentricPose {
   std::array<Quat, kJointCount> rotation_ws{};          //    the same, accumulated: no body enters
   Vec3 root{0.0};                                       // 2) (g-hat, h-hat_root) of equation 1
   std::array<PointCoordinates, kLimbPointCount> point;  // 3)
+  std::array<MeshCoordinates, kPointGroupCount> mesh;   //    by kPointGroups
   std::array<NormalCoordinates, kLimbCount> normal;     //    palms of the arms, soles of the legs
   std::array<std::array<EgocentricPlane, kOtherSegmentCount>, kSegmentCount> plane;  // 4)
   using ArmClearance = std::array<std::array<Clearance, kObstacleCount>, kClearanceSampleCount>;

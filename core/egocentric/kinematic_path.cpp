@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/base/check.h"
+
 namespace ego {
 namespace {
 
@@ -61,44 +63,48 @@ constexpr PathTable MakeTable() {
 
 constexpr PathTable kPathTable = MakeTable();
 
-MeshPaths MakeMeshPaths(std::size_t first, std::size_t end, LimbPoint to) {
-  std::array<HumanoidJoint, kTriangleCount> from{};
-  std::size_t count = 0;
-  for (std::size_t t = first; t < end; ++t) from[count++] = ParentJoint(t);
-  std::stable_sort(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count),
-                   [to](HumanoidJoint a, HumanoidJoint b) {
-                     return PathBetween(a, to).length < PathBetween(b, to).length;
-                   });
-  MeshPaths paths;
-  for (std::size_t k = 0; k < count; ++k) {
-    const KinematicPath& path = PathBetween(from[k], to);
-    for (std::size_t i = 0; i < path.length; ++i) {
-      const auto found = paths.bone.begin() + static_cast<std::ptrdiff_t>(paths.length);
-      if (std::find(paths.bone.begin(), found, path.bone[i]) != found) continue;
-      paths.bone[paths.length++] = path.bone[i];
-    }
+/// The bones that the paths from a joint to the points of a group run along at place `i`.
+std::array<std::uint8_t, kPointGroupSize> BonesAt(HumanoidJoint from, const PointGroup& to,
+                                                  std::size_t i) {
+  std::array<std::uint8_t, kPointGroupSize> bone{};
+  for (std::size_t lane = 0; lane < to.size(); ++lane) {
+    const KinematicPath& path = PathBetween(from, to[lane]);
+    bone[lane] = i < path.length ? path.bone[i] : std::uint8_t{0};
   }
+  return bone;
+}
+
+std::size_t LongestPath(HumanoidJoint from, const PointGroup& to) {
+  std::size_t longest = 0;
+  for (const LimbPoint j : to)
+    longest = std::max<std::size_t>(longest, PathBetween(from, j).length);
+  return longest;
+}
+
+MeshPaths MakeMeshPaths(std::size_t first, std::size_t end, const PointGroup& to) {
+  MeshPaths paths;
+  HumanoidJoint farthest = ParentJoint(first);
   for (std::size_t t = first; t < end; ++t) {
-    const std::size_t joint = Index(ParentJoint(t - t % 2));
-    paths.joint[t / 2] = static_cast<std::uint8_t>(joint);
-    MeshPaths::OfPair& pair = paths.by_joint[joint];
-    const KinematicPath& path = PathBetween(ParentJoint(t), to);
-    for (std::size_t column = 0; column < paths.length; ++column) {
-      const auto path_end = path.bone.begin() + path.length;
-      if (std::find(path.bone.begin(), path_end, paths.bone[column]) == path_end) continue;
-      pair.on_path[column][t % 2] = 1.0;
-      pair.used = std::max(pair.used, column + 1);
+    if (LongestPath(ParentJoint(t), to) > LongestPath(farthest, to)) farthest = ParentJoint(t);
+  }
+  paths.length = LongestPath(farthest, to);
+  for (std::size_t i = 0; i < paths.length; ++i) paths.bone[i] = BonesAt(farthest, to, i);
+  for (std::size_t t = first; t < end; ++t) {
+    const std::size_t length = LongestPath(ParentJoint(t), to);
+    paths.begin[t] = static_cast<std::uint8_t>(paths.length - length);
+    for (std::size_t i = 0; i < length; ++i) {
+      EGO_CHECK(BonesAt(ParentJoint(t), to, i) == paths.bone[paths.begin[t] + i]);
     }
   }
   return paths;
 }
 
-using AllMeshPaths = std::array<MeshPaths, kLimbPointCount>;
+using AllMeshPaths = std::array<MeshPaths, kPointGroupCount>;
 
 AllMeshPaths MakeAllMeshPaths(std::size_t first, std::size_t end) {
   AllMeshPaths all;
-  for (std::size_t j = 0; j < kLimbPointCount; ++j) {
-    all[j] = MakeMeshPaths(first, end, static_cast<LimbPoint>(j));
+  for (std::size_t g = 0; g < kPointGroupCount; ++g) {
+    all[g] = MakeMeshPaths(first, end, kPointGroups[g]);
   }
   return all;
 }
@@ -109,14 +115,14 @@ const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to) {
   return kPathTable[Index(from)][Index(to)];
 }
 
-const MeshPaths& PathsFromTrunk(LimbPoint to) {
+const MeshPaths& PathsFromTrunk(std::size_t group) {
   static const AllMeshPaths kAll = MakeAllMeshPaths(0, kTrunkTriangleCount);
-  return kAll[Index(to)];
+  return kAll[group];
 }
 
-const MeshPaths& PathsFromHead(LimbPoint to) {
+const MeshPaths& PathsFromHead(std::size_t group) {
   static const AllMeshPaths kAll = MakeAllMeshPaths(kTrunkTriangleCount, kTriangleCount);
-  return kAll[Index(to)];
+  return kAll[group];
 }
 
 }  // namespace ego

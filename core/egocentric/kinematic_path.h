@@ -7,7 +7,6 @@
 
 #include "core/body/body_surface.h"
 #include "core/egocentric/limb_point.h"
-#include "core/geometry/lanes.h"
 
 namespace ego {
 
@@ -32,23 +31,17 @@ struct KinematicPath {
 /// Feet and toes carry no reference point; from them the path is empty.
 const KinematicPath& PathBetween(HumanoidJoint from, LimbPoint to);
 
-/// The paths from all triangles of one crude mesh to one limb point, side by side: all bones that
-/// any of them runs along, the shortest path's first, and which of them each does.
+/// The paths from all triangles of one crude mesh to the four points of a group, side by side. A
+/// column is the bones that the four paths run along at the same place; the triangles hang along
+/// one chain of joints, so that every path is the end of the longest.
 struct MeshPaths {
-  std::array<std::uint8_t, kMaxPathLength> bone{};
+  /// Bone 0, which has no length, where a point's path has ended.
+  std::array<std::array<std::uint8_t, kPointGroupSize>, kMaxPathLength> bone{};
   std::size_t length = 0;
-  /// Of a pair of triangles, by the joint that carries the first: the bones up to the last one that
-  /// one of both paths has, and 1 in a lane where its path has the bone, else 0.
-  struct OfPair {
-    std::size_t used = 0;
-    std::array<Lanes, kMaxPathLength> on_path{};
-  };
-  std::array<OfPair, kJointCount> by_joint{};
-  std::array<std::uint8_t, kTriangleCount / 2> joint{};  // of every pair of both meshes
-  const OfPair& Of(std::size_t pair) const { return by_joint[joint[pair]]; }
+  std::array<std::uint8_t, kTriangleCount> begin{};  // by triangle: its path's first column
 };
-const MeshPaths& PathsFromTrunk(LimbPoint to);
-const MeshPaths& PathsFromHead(LimbPoint to);
+const MeshPaths& PathsFromTrunk(std::size_t group);
+const MeshPaths& PathsFromHead(std::size_t group);
 
 /// Added to every cosine, so that tau stays above zero where all bones are at right angles to the
 /// displacement and the ratio of two bodies' tau is always a convex mean of their bones' ratios.

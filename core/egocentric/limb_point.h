@@ -43,6 +43,27 @@ constexpr HumanoidJoint JointOf(LimbPoint point) {
   return IsHandPoint(point) || Index(point) % 2 == 1 ? joints.end : joints.mid;
 }
 
+/// The points in fours that are treated side by side: their paths from anywhere run along the same
+/// bones, or mirrored ones. Each arm's, then both legs'.
+inline constexpr std::size_t kPointGroupSize = 4;
+inline constexpr std::size_t kPointGroupCount = kLimbPointCount / kPointGroupSize;
+using PointGroup = std::array<LimbPoint, kPointGroupSize>;
+inline constexpr std::array<PointGroup, kPointGroupCount> kPointGroups = {
+    {{LimbPoint::kLeftElbow, LimbPoint::kLeftWrist, LimbPoint::kLeftPalm,
+      LimbPoint::kLeftFingertip},
+     {LimbPoint::kRightElbow, LimbPoint::kRightWrist, LimbPoint::kRightPalm,
+      LimbPoint::kRightFingertip},
+     {LimbPoint::kLeftKnee, LimbPoint::kRightKnee, LimbPoint::kLeftAnkle, LimbPoint::kRightAnkle}}};
+/// Where a point is in its group.
+constexpr std::size_t GroupOf(LimbPoint point) {
+  return IsArm(LimbOf(point)) ? Index(LimbOf(point)) : 2;
+}
+constexpr std::size_t LaneOf(LimbPoint point) {
+  std::size_t lane = 0;
+  while (kPointGroups[GroupOf(point)][lane] != point) ++lane;
+  return lane;
+}
+
 /// The six capsules of the other limbs, in an order that mirroring the body keeps: upper and lower
 /// of the partner, of the other limb on this side, of the other limb on the other side.
 inline constexpr std::size_t kOtherSegmentCount = 6;

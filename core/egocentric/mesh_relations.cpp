@@ -1,176 +1,240 @@
 // SPDX-License-Identifier: MIT
 #include "core/egocentric/mesh_relations.h"
 
-#include <algorithm>
-
 namespace ego {
 namespace {
 
-static_assert(kTrunkPairCount % 2 == 0 && kTrianglePairCount % 2 == 0, "pairs come in twos");
-
-/// What some of the triangles add.
-struct Part {
-  double sum = 0.0;  // of their importances
-  double max = 0.0;
-  double priority = 0.0;
-  Vec3 inside{0.0};
-  std::array<Vec3, kMaxPathLength> along{};  // the other two as in MeshRelations, world space
+/// What does not change from triangle to triangle.
+struct Points {
+  QuadVectors position;
+  Quad thickness;
+  Quad per_thickness;  // 0 without thickness
 };
 
-/// The importances of triangles (appendix A, equations 1 and 2; see `Proximity` and
-/// `Orthogonality`), added to lanes of the totals.
+/// The bones to the points by column of MeshPaths.
+struct Bones {
+  std::array<QuadVectors, kMaxPathLength> vector;
+  /// Sum of the lengths from a column on, times `kLeastCosine`: the part of tau that no direction
+  /// changes.
+  std::array<Quad, kMaxPathLength + 1> least;
+  std::array<Quad, kMaxPathLength> per_length;  // 0 for a bone without length
+};
+
+Points PointsOf(const MeshQuery& query) {
+  Points points;
+  for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
+    const std::size_t j = Index(kPointGroups[query.group][lane]);
+    points.position.Set(lane, query.posed.point[j]);
+    const double thickness = query.own_thickness ? query.constants.thickness[j] : 0.0;
+    points.thickness[lane] = thickness;
+    points.per_thickness[lane] = thickness > 0.0 ? 1.0 / thickness : 0.0;
+  }
+  return points;
+}
+
+void BonesOf(const MeshQuery& query, const MeshPaths& paths, Bones& bones) {
+  bones.least[paths.length] = {};
+  for (std::size_t i = paths.length; i-- > 0;) {
+    for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
+      const std::size_t bone = paths.bone[i][lane];
+      const double length = query.constants.bone_length[bone];
+      bones.vector[i].Set(lane, length * query.posed.bone_direction[bone]);
+      bones.least[i][lane] = bones.least[i + 1][lane] + kLeastCosine * length;
+      bones.per_length[i][lane] = length > 0.0 ? 1.0 / length : 0.0;
+    }
+  }
+}
+
+/// Sums over triangles, for as many points as there are lanes.
 template <class V>
-struct LaneTotal {
+struct Totals {
   V sum{};
   V max{};
   V priority{};
+  std::array<V, kSampleCount> sample{};
 };
+
+/// From the points to the closest ones of a triangle.
 template <class V>
-EGO_LANES_INLINE V Importances(const MeshQuery& query, const ImportanceTotal& total, const V& along,
-                               const V& reach, const V& gap, LaneTotal<V>& lanes) {
-  // Cosine over saturated gap as one quotient.
+struct Displacements {
+  LaneVectors<V> direction;
+  V length;
+  V importance;
+};
+
+/// Closest points, importances (appendix A, equations 1 and 2; see `Proximity` and `Orthogonality`)
+/// and the shares of the triangle's corners.
+template <class V>
+EGO_LANES_INLINE Displacements<V> Displace(const MeshQuery& query, const TriangleLanes<V>& triangle,
+                                           const SampleTriangle& corner,
+                                           const LaneVectors<V>& point, const V& thickness,
+                                           Totals<V>& totals) {
+  const V one = Splat<V>(1.0);
+  const ClosestLanes<V> closest = ClosestOnTriangles(triangle, point);
+  const V reach = Sqrt<V>(Dot(closest.away, closest.away));
+  const LaneMask<V> is_away = reach > Splat<V>(1e-12);
+  const V distance = Select<V>(is_away, reach, one);
   const V softness = Splat<V>(query.softness);
   const V length = reach + softness;
   const LaneMask<V> is_long = length > Splat<V>(1e-12);
-  const V one = Splat<V>(1.0);
   const V divisor = Select<V>(is_long, length, one);
-  const V cosine =
-      Select<V>(is_long, Max<V>(along + softness, Splat<V>(query.floor) * length), one);
-  const V importance = cosine / (divisor * Max<V>(gap, Splat<V>(total.epsilon)));
-  lanes.sum += importance;
-  lanes.max = Max<V>(lanes.max, importance);
-  lanes.priority =
-      Max<V>(lanes.priority, total.gamma_epsilon == total.epsilon
-                                 ? importance
-                                 : cosine / (divisor * Max<V>(gap, Splat<V>(total.gamma_epsilon))));
-  return importance;
+  const V along = Dot(closest.away, triangle.normal) + softness;
+  const V cosine = Select<V>(is_long, Max<V>(along, Splat<V>(query.floor) * length), one);
+  // All three quotients by one division.
+  const V gap = Max<V>(reach - thickness, Splat<V>(query.epsilon));
+  const V gamma_gap = Max<V>(reach - thickness, Splat<V>(query.gamma_epsilon));
+  const V gaps = divisor * (gap * gamma_gap);
+  const V inverse = one / (distance * gaps);
+  const V scaled = cosine * (inverse * distance);
+  Displacements<V> found;
+  found.length = reach;
+  found.direction = Select<V>(is_away, (inverse * gaps) * closest.away, triangle.normal);
+  found.importance = scaled * gamma_gap;
+  totals.sum += found.importance;
+  totals.max = Max<V>(totals.max, found.importance);
+  totals.priority = Max<V>(totals.priority, scaled * gap);
+  const V b = found.importance * closest.b;
+  const V c = found.importance * closest.c;
+  totals.sample[Index(corner[0])] += Max<V>(found.importance - b - c, V{});
+  totals.sample[Index(corner[1])] += b;
+  totals.sample[Index(corner[2])] += c;
+  return found;
 }
 
-/// The bones to the point, in the order of MeshPaths::bone, and what triangles ask along them.
+/// What triangles ask along the bones, by column: of |s cos alpha|, and of the least cosine, which
+/// counts for this column and all after it.
 template <class V>
-struct Columns {
-  std::array<LaneVectors<V>, kMaxPathLength> direction;
-  std::array<V, kMaxPathLength> length;
-  std::array<LaneVectors<V>, kMaxPathLength> along{};
+struct Alongs {
+  std::array<LaneVectors<V>, kMaxPathLength> by_cosine{};
+  std::array<LaneVectors<V>, kMaxPathLength> from_here{};
 };
 
-/// Equations 4 and 5: the gap over tau, spread over the bones again. `direction` are the unit
-/// displacements, `weight` the importances times the gaps.
+/// Equations 4 and 5: the gap over tau, spread over the bones again, which are those from `begin`
+/// on. `weight` are the importances times the gaps.
 template <class V>
-EGO_LANES_INLINE void SpreadOverBones(const MeshPaths::OfPair& first,
-                                      const MeshPaths::OfPair& second,
-                                      const LaneVectors<V>& direction, const V& weight,
-                                      double least_factor, Columns<V>& columns) {
-  const std::size_t used = kLaneCount<V> == 2 ? first.used : std::max(first.used, second.used);
-  std::array<V, kMaxPathLength> factor;
-  V tau{};
-  for (std::size_t i = 0; i < used; ++i) {
-    factor[i] = Join<V>(first.on_path[i], second.on_path[i]) *
-                (Splat<V>(kLeastCosine) + Abs<V>(Dot(direction, columns.direction[i])));
-    tau += columns.length[i] * factor[i];
+EGO_LANES_INLINE void SpreadOverBones(const Bones& bones, std::size_t begin, std::size_t end,
+                                      std::size_t first, const LaneVectors<V>& direction,
+                                      const V& weight, double least_factor, Alongs<V>& along) {
+  std::array<V, kMaxPathLength> part;
+  V tau = Load<V>(bones.least[begin], first);
+  for (std::size_t i = begin; i < end; ++i) {
+    part[i] = Abs<V>(Dot(direction, Load<V>(bones.vector[i], first)));
+    tau += part[i];
   }
   const LaneVectors<V> step = (weight / Max<V>(tau, Splat<V>(least_factor))) * direction;
-  for (std::size_t i = 0; i < used; ++i) columns.along[i] += factor[i] * step;
+  along.from_here[begin] += step;
+  for (std::size_t i = begin; i < end; ++i) along.by_cosine[i] += part[i] * step;
 }
 
-/// Importances and barycentric coordinates times them, by pair.
-struct PairWeights {
-  std::array<Lanes, kTrianglePairCount> b;
-  std::array<Lanes, kTrianglePairCount> c;
-};
-
-/// Every second pair from `first` on, or all pairs where the lanes take two.
+/// One mesh: the triangle pairs from `begin` up to `end`. For the points from `first` on.
 template <class V>
-EGO_LANES_INLINE void RelatePart(const MeshQuery& query, std::size_t first, std::size_t end,
-                                 const ImportanceTotal& total,
-                                 std::array<Lanes, kTrianglePairCount>& triangle,
-                                 PairWeights& weights, Part& part) {
-  const LaneVectors<V> point = Splat<V>(query.point);
+EGO_LANES_INLINE void RelateToMesh(const MeshQuery& query, const Points& points,
+                                   const MeshPaths& paths, const Bones& bones, std::size_t first,
+                                   std::size_t begin, std::size_t end, Totals<V>& totals,
+                                   MeshRelations& relations, MeshImportances& importances) {
+  const std::array<SampleTriangle, kTriangleCount>& corners = SampleTriangles();
+  const LaneVectors<V> point = Load<V>(points.position, first);
+  const V thickness = Load<V>(points.thickness, first);
+  const V per_thickness = Load<V>(points.per_thickness, first);
+  const LaneMask<V> is_thick = thickness > V{};
   const V one = Splat<V>(1.0);
-  const V thickness = Splat<V>(query.thickness);
-  const V per_thickness = Splat<V>(query.thickness > 0.0 ? 1.0 / query.thickness : 0.0);
-  const bool is_thick = query.thickness > 0.0;
-  Columns<V> columns;
-  for (std::size_t i = 0; i < query.paths.length; ++i) {
-    const std::size_t bone = query.paths.bone[i];
-    columns.direction[i] = Splat<V>(query.posed.bone_direction[bone]);
-    columns.length[i] = Splat<V>(query.constants.bone_length[bone]);
-  }
-  LaneTotal<V> lanes;
+  const V before = totals.sum;
   LaneVectors<V> inside_sum{};
-  for (std::size_t t = first; t < end; t += 2) {
-    const std::size_t u = kLaneCount<V> == 2 ? t : t + 1;
-    const TriangleLanes<V> triangles = Join<V>(query.posed.triangle[t], query.posed.triangle[u]);
-    const ClosestLanes<V> closest = ClosestOnTriangles(triangles, point);
-    const V reach = Sqrt<V>(Dot(closest.away, closest.away));
-    const LaneMask<V> is_away = reach > Splat<V>(1e-12);
-    const LaneVectors<V> direction =
-        Select<V>(is_away, (one / Select<V>(is_away, reach, one)) * closest.away, triangles.normal);
-    const V gap = reach - thickness;
-    const V importance =
-        Importances<V>(query, total, Dot(closest.away, triangles.normal), reach, gap, lanes);
-    Store<V>(importance, &triangle[t]);
-    Store<V>(importance * closest.b, &weights.b[t]);
-    Store<V>(importance * closest.c, &weights.c[t]);
-    const V inside = is_thick ? Min<V>(one, reach * per_thickness) : one;
-    inside_sum += (importance * inside) * direction;
-    SpreadOverBones<V>(query.paths.Of(t), query.paths.Of(u), direction,
-                       importance * Max<V>(V{}, gap), query.least_factor, columns);
+  Alongs<V> along;
+  for (std::size_t t = 2 * begin; t < 2 * end; ++t) {
+    const TriangleLanes<V> triangle = Splat<V>(query.posed.triangle[t / 2], t % 2);
+    const Displacements<V> found =
+        Displace<V>(query, triangle, corners[t], point, thickness, totals);
+    Store<V>(found.importance, importances.triangle[t], first);
+    const V inside = Select<V>(is_thick, Min<V>(one, found.length * per_thickness), one);
+    inside_sum += (found.importance * inside) * found.direction;
+    SpreadOverBones<V>(bones, paths.begin[t], paths.length, first, found.direction,
+                       found.importance * Max<V>(V{}, found.length - thickness), query.least_factor,
+                       along);
   }
-  part.sum += Sum(lanes.sum);
-  part.max = std::max(part.max, Largest(lanes.max));
-  part.priority = std::max(part.priority, Largest(lanes.priority));
-  part.inside += Sum(inside_sum);
-  for (std::size_t i = 0; i < query.paths.length; ++i) part.along[i] += Sum(columns.along[i]);
+  const Mat3& hips = query.posed.hips;
+  const auto in_hips = [&](const LaneVectors<V>& v) __attribute__((always_inline)) {
+    return LaneVectors<V>{Dot(v, Splat<V>(hips[0])), Dot(v, Splat<V>(hips[1])),
+                          Dot(v, Splat<V>(hips[2]))};
+  };
+  Store<V>(totals.sum - before, relations.importance, first);
+  Store<V>(in_hips(inside_sum), relations.inside, first);
+  LaneVectors<V> least{};
+  for (std::size_t i = 0; i < paths.length; ++i) {
+    least += Splat<V>(kLeastCosine) * along.from_here[i];
+    const LaneVectors<V> all = Load<V>(bones.per_length[i], first) * along.by_cosine[i] + least;
+    Store<V>(in_hips(all), relations.along[i], first);
+  }
 }
 
-void RelateInTwoLanes(const MeshQuery& query, std::size_t first, std::size_t end,
-                      const ImportanceTotal& total, std::array<Lanes, kTrianglePairCount>& triangle,
-                      PairWeights& weights, Part& part) {
-  RelatePart<Lanes>(query, first, end, total, triangle, weights, part);
-  RelatePart<Lanes>(query, first + 1, end, total, triangle, weights, part);
+/// Both meshes, for the points from `first` on.
+template <class V>
+EGO_LANES_INLINE void RelatePoints(const MeshQuery& query, const Points& points,
+                                   const Bones& to_trunk, const Bones& to_head, std::size_t first,
+                                   MeshCoordinates& relations, MeshImportances& importances) {
+  Totals<V> totals;
+  RelateToMesh<V>(query, points, PathsFromTrunk(query.group), to_trunk, first, 0, kTrunkPairCount,
+                  totals, relations.trunk, importances);
+  RelateToMesh<V>(query, points, PathsFromHead(query.group), to_head, first, kTrunkPairCount,
+                  kTrianglePairCount, totals, relations.head, importances);
+  for (std::size_t s = 0; s < kSampleCount; ++s) {
+    Store<V>(totals.sample[s], relations.sample[s], first);
+  }
+  Store<V>(totals.sum, importances.sum, first);
+  Store<V>(totals.max, importances.max, first);
+  Store<V>(totals.priority, importances.priority, first);
+}
+
+void RelateInTwoLanes(const MeshQuery& query, const Points& points, const Bones& to_trunk,
+                      const Bones& to_head, MeshCoordinates& relations,
+                      MeshImportances& importances) {
+  RelatePoints<Lanes>(query, points, to_trunk, to_head, 0, relations, importances);
+  RelatePoints<Lanes>(query, points, to_trunk, to_head, 2, relations, importances);
 }
 
 EGO_WIDE_LANES_TARGET
-void RelateInFourLanes(const MeshQuery& query, std::size_t first, std::size_t end,
-                       const ImportanceTotal& total,
-                       std::array<Lanes, kTrianglePairCount>& triangle, PairWeights& weights,
-                       Part& part) {
-  RelatePart<WideLanes>(query, first, end, total, triangle, weights, part);
+void RelateInFourLanes(const MeshQuery& query, const Points& points, const Bones& to_trunk,
+                       const Bones& to_head, MeshCoordinates& relations,
+                       MeshImportances& importances) {
+  RelatePoints<WideLanes>(query, points, to_trunk, to_head, 0, relations, importances);
+}
+
+void Scale(const Quad& share, Quad& values) {
+  for (std::size_t lane = 0; lane < share.size(); ++lane) values[lane] *= share[lane];
+}
+
+void Scale(const Quad& share, QuadVectors& vectors) {
+  Scale(share, vectors.x);
+  Scale(share, vectors.y);
+  Scale(share, vectors.z);
+}
+
+void Scale(const Quad& share, std::size_t length, MeshRelations& relations) {
+  Scale(share, relations.importance);
+  Scale(share, relations.inside);
+  for (std::size_t i = 0; i < length; ++i) Scale(share, relations.along[i]);
 }
 
 }  // namespace
 
-MeshRelations RelateToMesh(const MeshQuery& query, std::size_t first, std::size_t end,
-                           ImportanceTotal& total, std::array<Lanes, kTrianglePairCount>& triangle,
-                           std::array<double, kSampleCount>& sample, LaneWidth lanes) {
-  PairWeights weights;
-  Part part;
+void RelateToMeshes(const MeshQuery& query, MeshCoordinates& relations,
+                    MeshImportances& importances, LaneWidth lanes) {
+  const Points points = PointsOf(query);
+  Bones to_trunk;
+  Bones to_head;
+  BonesOf(query, PathsFromTrunk(query.group), to_trunk);
+  BonesOf(query, PathsFromHead(query.group), to_head);
   if (lanes == LaneWidth::kFour) {
-    RelateInFourLanes(query, first, end, total, triangle, weights, part);
+    RelateInFourLanes(query, points, to_trunk, to_head, relations, importances);
   } else {
-    RelateInTwoLanes(query, first, end, total, triangle, weights, part);
+    RelateInTwoLanes(query, points, to_trunk, to_head, relations, importances);
   }
-  const std::array<SampleTriangle, kTriangleCount>& corners = SampleTriangles();
-  for (std::size_t t = first; t < end; ++t) {
-    const Lanes a = Max<Lanes>(triangle[t] - weights.b[t] - weights.c[t], Lanes{});
-    for (std::size_t lane = 0; lane < kLaneCount<Lanes>; ++lane) {
-      const SampleTriangle& corner = corners[2 * t + lane];
-      sample[Index(corner[0])] += a[lane];
-      sample[Index(corner[1])] += weights.b[t][lane];
-      sample[Index(corner[2])] += weights.c[t][lane];
-    }
-  }
-  total.sum += part.sum;
-  total.max = std::max(total.max, part.max);
-  total.priority = std::max(total.priority, part.priority);
-  MeshRelations relations;
-  relations.importance = part.sum;
-  relations.inside = part.inside * query.posed.hips;
-  for (std::size_t i = 0; i < query.paths.length; ++i) {
-    relations.along[i] = part.along[i] * query.posed.hips;
-  }
-  return relations;
+}
+
+void ScaleMeshCoordinates(const Quad& share, std::size_t group, MeshCoordinates& coordinates) {
+  for (Quad& weight : coordinates.sample) Scale(share, weight);
+  Scale(share, PathsFromTrunk(group).length, coordinates.trunk);
+  Scale(share, PathsFromHead(group).length, coordinates.head);
 }
 
 }  // namespace ego

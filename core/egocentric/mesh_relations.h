@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "core/egocentric/egocentric_pose.h"
 #include "core/egocentric/importance.h"
@@ -10,25 +9,34 @@
 
 namespace ego {
 
-/// How far a limb point is from the triangles of one crude mesh: equations 4 to 6 of the paper with
-/// appendix A. Everything in world space and metres.
+/// How far the four points of a group are from the triangles of both crude meshes: equations 4 to 6
+/// of the paper with appendix A. Everything in world space and metres.
 struct MeshQuery {
   const BodyConstants& constants;
   const PosedBody& posed;
-  const MeshPaths& paths;  // from the mesh to the point
-  Vec3 point{0.0};
-  double thickness = 0.0;     // the point's own
-  double softness = 0.0;      // of the orthogonality
-  double floor = 0.0;         // likewise
-  double least_factor = 0.0;  // tau is never taken as less
+  std::size_t group = 0;
+  bool own_thickness = true;   // whether the points' own thickness fills the distance
+  double epsilon = 0.0;        // the distance at which importances saturate
+  double gamma_epsilon = 0.0;  // the same for gamma (appendix C)
+  double softness = 0.0;       // of the orthogonality
+  double floor = 0.0;          // likewise
+  double least_factor = 0.0;   // tau is never taken as less
 };
 
-/// Relates the point to the triangle pairs from `first` up to `end`. Adds the importances, before
-/// normalisation, to `total`, those of the triangles to `triangle`, and their share of every sample
-/// to `sample`. The same bits for any `lanes`.
-MeshRelations RelateToMesh(const MeshQuery& query, std::size_t first, std::size_t end,
-                           ImportanceTotal& total, std::array<Lanes, kTrianglePairCount>& triangle,
-                           std::array<double, kSampleCount>& sample,
-                           LaneWidth lanes = FastestLanes());
+/// Importances before normalisation, by point.
+struct MeshImportances {
+  Quad sum;
+  Quad max;
+  Quad priority;  // see ImportanceTotal
+  std::array<Quad, kTriangleCount> triangle;
+};
+
+/// Relates the points to all triangles; `relations` are before normalisation too. Every point is
+/// computed as it would be alone: the same bits for any `lanes`.
+void RelateToMeshes(const MeshQuery& query, MeshCoordinates& relations,
+                    MeshImportances& importances, LaneWidth lanes = FastestLanes());
+
+/// Multiplies what is kept of every point by its own `share`.
+void ScaleMeshCoordinates(const Quad& share, std::size_t group, MeshCoordinates& coordinates);
 
 }  // namespace ego

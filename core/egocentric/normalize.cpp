@@ -33,12 +33,6 @@ void NormalizeDistance(const Context& context, const KinematicPath& path, const 
   distance.gap = std::max(0.0, reach - filled) / std::max(tau, 1e-9 * context.body.height);
 }
 
-void Multiply(MeshRelations& relations, double share) {
-  relations.importance *= share;
-  relations.inside *= share;
-  for (Vec3& along : relations.along) along *= share;
-}
-
 void RelateToCapsule(const Context& context, const PosedCapsule& capsule, HumanoidJoint parent,
                      LimbPoint j, ImportanceTotal& importance, CapsuleRelation& relation) {
   const Vec3& p = context.posed.point[Index(j)];
@@ -78,28 +72,12 @@ GroundRelation RelateToGround(const Context& context, LimbPoint j, ImportanceTot
   return relation;
 }
 
-/// `triangle` are the triangles' shares, for the normals.
-void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
-                    std::array<Lanes, kTrianglePairCount>& triangle) {
+/// A point against everything but trunk and head, whose importances are in `importance` already.
+/// Returns what all importances are to be multiplied by.
+double NormalizePoint(const Context& context, LimbPoint j, ImportanceTotal& importance,
+                      PointCoordinates& out) {
   const NormalizeSettings& settings = context.settings;
   const Limb limb = LimbOf(j);
-  ImportanceTotal importance{context.scale * settings.surface_epsilon,
-                             context.scale * settings.gamma_epsilon};
-  const auto relate = [&](const MeshPaths& paths, std::size_t first, std::size_t end) {
-    const MeshQuery query{
-        .constants = context.constants,
-        .posed = context.posed,
-        .paths = paths,
-        .point = context.posed.point[Index(j)],
-        .thickness = settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0,
-        .softness = context.scale * settings.orthogonality_softness,
-        .floor = settings.orthogonality_floor,
-        .least_factor = 1e-9 * context.body.height};
-    return RelateToMesh(query, first, end, importance, triangle, out.sample);
-  };
-  out.sample = {};
-  out.trunk = relate(PathsFromTrunk(j), 0, kTrunkPairCount);
-  out.head = relate(PathsFromHead(j), kTrunkPairCount, kTrianglePairCount);
   out.mesh_importance_max = importance.max;
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const LimbSegment other = OtherSegment(limb, slot);
@@ -121,10 +99,6 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
 
   // Normalised linearly so that they sum to one (section 5.1).
   const double share = 1.0 / importance.sum;
-  for (Lanes& weight : triangle) weight *= Splat(share);
-  for (double& weight : out.sample) weight *= share;
-  Multiply(out.trunk, share);
-  Multiply(out.head, share);
   out.mesh_importance_max *= share;
   for (CapsuleRelation& relation : out.capsule) relation.importance *= share;
   out.hand.importance *= share;
@@ -132,11 +106,13 @@ void NormalizePoint(const Context& context, LimbPoint j, PointCoordinates& out,
   out.importance_sum = importance.sum * context.body.height;
   out.importance_max = importance.max * context.body.height;
   out.priority = importance.priority * context.body.height;
+  return share;
 }
 
-void NormalizeNormal(const Context& context, Limb limb,
-                     const std::array<Lanes, kTrianglePairCount>& importance,
-                     NormalCoordinates& out) {
+/// `importance` are those of all triangles for the orienting point, `share` what they are to be
+/// multiplied by.
+void NormalizeNormal(const Context& context, Limb limb, const MeshImportances& importance,
+                     std::size_t lane, double share, NormalCoordinates& out) {
   const BodySurface& surface = context.body.surface;
   const std::size_t side = IsLeft(limb) ? 0 : 1;
   const Vec3& normal_ms =
@@ -145,14 +121,44 @@ void NormalizeNormal(const Context& context, Limb limb,
   const Lanes3 both = Splat(normal);
   for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
     const TangentPair& tangent = context.posed.tangent[t];
-    out.triangle[t] = importance[t] * Lanes3{Dot(both, context.posed.triangle[t].normal),
-                                             Dot(both, tangent.along), Dot(both, tangent.third)};
+    const Lanes weight = {share * importance.triangle[2 * t][lane],
+                          share * importance.triangle[2 * t + 1][lane]};
+    out.triangle[t] = weight * Lanes3{Dot(both, context.posed.triangle[t].normal),
+                                      Dot(both, tangent.along), Dot(both, tangent.third)};
   }
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const PosedCapsule& capsule = context.posed.capsule[Index(OtherSegment(limb, slot))];
     out.capsule[slot] = glm::transpose(capsule.frame) * normal;
   }
   out.ground = normal;
+}
+
+/// The points of a group, and the normals that they orient.
+void NormalizeGroup(const Context& context, std::size_t group, EgocentricPose& out) {
+  const NormalizeSettings& settings = context.settings;
+  const MeshQuery query{.constants = context.constants,
+                        .posed = context.posed,
+                        .group = group,
+                        .own_thickness = settings.form.own_thickness,
+                        .epsilon = context.scale * settings.surface_epsilon,
+                        .gamma_epsilon = context.scale * settings.gamma_epsilon,
+                        .softness = context.scale * settings.orthogonality_softness,
+                        .floor = settings.orthogonality_floor,
+                        .least_factor = 1e-9 * context.body.height};
+  MeshImportances importances;
+  RelateToMeshes(query, out.mesh[group], importances);
+  Quad share{};
+  for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
+    const LimbPoint j = kPointGroups[group][lane];
+    if (IsHandPoint(j) && !settings.form.hand_points) continue;
+    ImportanceTotal total{query.epsilon, query.gamma_epsilon, importances.sum[lane],
+                          importances.max[lane], importances.priority[lane]};
+    share[lane] = NormalizePoint(context, j, total, out.point[Index(j)]);
+    const Limb limb = LimbOf(j);
+    if (j != OrientingPoint(out, limb)) continue;
+    NormalizeNormal(context, limb, importances, lane, share[lane], out.normal[Index(limb)]);
+  }
+  ScaleMeshCoordinates(share, group, out.mesh[group]);
 }
 
 /// Both planes of two segments (section 5.3); they share the closest pair.
@@ -208,15 +214,8 @@ void Normalize(const Body& performer, const Pose& pose, const NormalizeSettings&
   out.rotation_ws = posed.pose.rotation_ws;
   out.root = pose.root_ws / performer.standing_root_height;
 
-  const std::size_t points = settings.form.hand_points ? kLimbPointCount : kLimbJointCount;
-  std::array<Lanes, kTrianglePairCount> triangle;
-  for (std::size_t k = 0; k < points; ++k) {
-    const auto j = static_cast<LimbPoint>(k);
-    NormalizePoint(context, j, out.point[k], triangle);
-    const Limb limb = LimbOf(j);
-    if (j == OrientingPoint(out, limb)) {
-      NormalizeNormal(context, limb, triangle, out.normal[Index(limb)]);
-    }
+  for (std::size_t group = 0; group < kPointGroupCount; ++group) {
+    NormalizeGroup(context, group, out);
   }
   for (std::size_t i = 0; i < kSegmentCount; ++i) {
     for (std::size_t j = 2 * (i / 2) + 2; j < kSegmentCount; ++j) {

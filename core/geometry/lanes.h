@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/base/math.h"
 
@@ -61,7 +63,8 @@ EGO_LANES_INLINE V Max(const V& a, const V& b) {
 }
 template <class V>
 EGO_LANES_INLINE V Abs(const V& x) {
-  return Max<V>(x, -x);
+  constexpr auto kAllButSign = std::numeric_limits<std::int64_t>::max();
+  return (V)((LaneMask<V>)x & kAllButSign);
 }
 template <class V>
 EGO_LANES_INLINE V Sqrt(const V& x) {
@@ -70,10 +73,17 @@ EGO_LANES_INLINE V Sqrt(const V& x) {
   return root;
 }
 
-/// As they lie in an array of pairs.
+/// Four doubles as they are stored, for lanes of either width: two take those from `first` on.
+using Quad = std::array<double, 4>;
 template <class V>
-EGO_LANES_INLINE void Store(const V& all, Lanes* first) {
-  __builtin_memcpy(first, &all, sizeof(V));
+EGO_LANES_INLINE V Load(const Quad& quad, std::size_t first) {
+  V lanes;
+  __builtin_memcpy(&lanes, quad.data() + first, sizeof(V));
+  return lanes;
+}
+template <class V>
+EGO_LANES_INLINE void Store(const V& lanes, Quad& quad, std::size_t first) {
+  __builtin_memcpy(quad.data() + first, &lanes, sizeof(V));
 }
 /// The first pair, or both.
 template <class V>
@@ -95,6 +105,30 @@ struct LaneVectors {
   Vec3 At(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 using Lanes3 = LaneVectors<Lanes>;
+
+/// Four vectors as they are stored.
+struct QuadVectors {
+  Quad x{};
+  Quad y{};
+  Quad z{};
+
+  Vec3 At(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
+  void Set(std::size_t lane, const Vec3& v) {
+    x[lane] = v.x;
+    y[lane] = v.y;
+    z[lane] = v.z;
+  }
+};
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> Load(const QuadVectors& quad, std::size_t first) {
+  return {Load<V>(quad.x, first), Load<V>(quad.y, first), Load<V>(quad.z, first)};
+}
+template <class V>
+EGO_LANES_INLINE void Store(const LaneVectors<V>& lanes, QuadVectors& quad, std::size_t first) {
+  Store<V>(lanes.x, quad.x, first);
+  Store<V>(lanes.y, quad.y, first);
+  Store<V>(lanes.z, quad.z, first);
+}
 
 template <class V = Lanes>
 EGO_LANES_INLINE LaneVectors<V> Splat(const Vec3& v) {

@@ -47,6 +47,23 @@ EGO_LANES_INLINE TriangleLanes<V> Join(const TrianglePair& first, const Triangle
           lanes(&T::per_ac),   lanes(&T::per_bc), lanes(&T::per_square)};
 }
 
+/// One of both in all lanes.
+template <class V>
+EGO_LANES_INLINE TriangleLanes<V> Splat(const TrianglePair& pair, std::size_t lane) {
+  const auto vectors = [&](Lanes3 TrianglePair::*member) __attribute__((always_inline)) {
+    const Lanes3& both = pair.*member;
+    return LaneVectors<V>{Splat<V>(both.x[lane]), Splat<V>(both.y[lane]), Splat<V>(both.z[lane])};
+  };
+  const auto lanes = [&](Lanes TrianglePair::*member) __attribute__((always_inline)) {
+    return Splat<V>((pair.*member)[lane]);
+  };
+  using T = TrianglePair;
+  return {vectors(&T::a),      vectors(&T::ab),   vectors(&T::ac),      vectors(&T::normal),
+          vectors(&T::center), lanes(&T::reach),  lanes(&T::area),      lanes(&T::ab_ab),
+          lanes(&T::ab_ac),    lanes(&T::ac_ac),  lanes(&T::square),    lanes(&T::per_ab),
+          lanes(&T::per_ac),   lanes(&T::per_bc), lanes(&T::per_square)};
+}
+
 /// The points of triangles that are closest to a point.
 template <class V>
 struct ClosestLanes {

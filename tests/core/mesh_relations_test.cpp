@@ -9,92 +9,149 @@ namespace ego::test {
 namespace {
 
 struct Outcome {
-  MeshRelations relations;
-  ImportanceTotal total{0.01, 0.01};
-  std::array<Lanes, kTrianglePairCount> triangle{};
-  std::array<double, kSampleCount> sample{};
+  MeshCoordinates mesh;
+  MeshImportances importance;
 };
+
+MeshQuery QueryOf(const BodyConstants& constants, const PosedBody& posed, std::size_t group) {
+  return {.constants = constants,
+          .posed = posed,
+          .group = group,
+          .own_thickness = true,
+          .epsilon = 0.01,
+          .gamma_epsilon = 0.02,
+          .softness = 0.005,
+          .floor = 0.02,
+          .least_factor = 1e-9};
+}
 
 Outcome Relate(const MeshQuery& query, LaneWidth lanes) {
   Outcome outcome;
-  outcome.relations = RelateToMesh(query, 0, kTrunkPairCount, outcome.total, outcome.triangle,
-                                   outcome.sample, lanes);
+  RelateToMeshes(query, outcome.mesh, outcome.importance, lanes);
   return outcome;
 }
 
-TEST(RelateToMesh, GivesTheSameBitsInAnyWidth) {
+void ExpectEqual(const QuadVectors& a, const QuadVectors& b) {
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.y, b.y);
+  EXPECT_EQ(a.z, b.z);
+}
+
+void ExpectEqual(const MeshRelations& a, const MeshRelations& b, std::size_t length) {
+  EXPECT_EQ(a.importance, b.importance);
+  ExpectEqual(a.inside, b.inside);
+  for (std::size_t i = 0; i < length; ++i) ExpectEqual(a.along[i], b.along[i]);
+}
+
+TEST(RelateToMeshes, GivesTheSameBitsInAnyWidth) {
   const Body body = TemplateBody();
   const BodyConstants constants(body);
   PosedBody posed;
   for (const std::string_view name : PostureNames()) {
     PlaceBody(body, constants, Posture(body, name), posed);
-    for (std::size_t j = 0; j < kLimbPointCount; ++j) {
-      const MeshQuery query{.constants = constants,
-                            .posed = posed,
-                            .paths = PathsFromTrunk(static_cast<LimbPoint>(j)),
-                            .point = posed.point[j],
-                            .thickness = constants.thickness[j],
-                            .softness = 0.005,
-                            .floor = 0.02,
-                            .least_factor = 1e-9};
+    for (std::size_t group = 0; group < kPointGroupCount; ++group) {
+      const MeshQuery query = QueryOf(constants, posed, group);
       const Outcome two = Relate(query, LaneWidth::kTwo);
       const Outcome fastest = Relate(query, FastestLanes());
-      EXPECT_EQ(two.total.sum, fastest.total.sum);
-      EXPECT_EQ(two.total.max, fastest.total.max);
-      EXPECT_EQ(two.total.priority, fastest.total.priority);
-      EXPECT_EQ(two.sample, fastest.sample);
-      EXPECT_EQ(two.relations.inside, fastest.relations.inside);
-      EXPECT_EQ(two.relations.along, fastest.relations.along);
-      for (std::size_t t = 0; t < kTrunkPairCount; ++t) {
-        for (std::size_t lane = 0; lane < kLaneCount<Lanes>; ++lane) {
-          EXPECT_EQ(two.triangle[t][lane], fastest.triangle[t][lane]);
-        }
-      }
+      EXPECT_EQ(two.importance.sum, fastest.importance.sum);
+      EXPECT_EQ(two.importance.max, fastest.importance.max);
+      EXPECT_EQ(two.importance.priority, fastest.importance.priority);
+      EXPECT_EQ(two.importance.triangle, fastest.importance.triangle);
+      EXPECT_EQ(two.mesh.sample, fastest.mesh.sample);
+      ExpectEqual(two.mesh.trunk, fastest.mesh.trunk, PathsFromTrunk(group).length);
+      ExpectEqual(two.mesh.head, fastest.mesh.head, PathsFromHead(group).length);
     }
   }
 }
 
-/// Equations 4 to 6 and appendix A written out for one triangle after the other.
-TEST(RelateToMesh, AgreesWithTheEquationsTriangleByTriangle) {
+/// What a mesh's relations give on a body of other bones and thickness, by equations 2 and 5.
+Vec3 Displacement(const MeshRelations& relations, const MeshPaths& paths, std::size_t lane,
+                  const std::array<double, kBoneCount>& bone_length, double thickness) {
+  Vec3 sum = thickness * relations.inside.At(lane);
+  for (std::size_t i = 0; i < paths.length; ++i) {
+    sum += bone_length[paths.bone[i][lane]] * relations.along[i].At(lane);
+  }
+  return sum;
+}
+
+/// Equations 4 to 6 and appendix A written out for one point and one triangle after the other, read
+/// on a body with other bones and thicknesses.
+TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
   const Body body = TemplateBody();
   const BodyConstants constants(body);
+  std::array<double, kBoneCount> other_length = constants.bone_length;
+  for (std::size_t k = 0; k < kBoneCount; ++k) {
+    other_length[k] *= 0.6 + 0.1 * static_cast<double>(k % 9);
+  }
   PosedBody posed;
   PlaceBody(body, constants, Posture(body, PostureNames()[0]), posed);
   for (std::size_t j = 0; j < kLimbPointCount; ++j) {
     const auto limb_point = static_cast<LimbPoint>(j);
-    const MeshQuery query{.constants = constants,
-                          .posed = posed,
-                          .paths = PathsFromTrunk(limb_point),
-                          .point = posed.point[j],
-                          .thickness = constants.thickness[j],
-                          .softness = 0.005,
-                          .floor = 0.02,
-                          .least_factor = 1e-9};
+    const std::size_t lane = LaneOf(limb_point);
+    const std::size_t group = GroupOf(limb_point);
+    const MeshQuery query = QueryOf(constants, posed, group);
     const Outcome found = Relate(query, FastestLanes());
-    Vec3 wanted{0.0};  // sum of lambda (x + v) on the performer's own body
+    const double thickness = constants.thickness[j];
+    const double other_thickness = 1.7 * thickness;
+    Vec3 wanted{0.0};  // sum of lambda (x + v), on the other body
     double sum = 0.0;
-    for (std::size_t t = 0; t < kTrunkTriangleCount; ++t) {
+    double max = 0.0;
+    double priority = 0.0;
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
       const SampleTriangle& s = SampleTriangles()[t];
       const Triangle triangle = Triangle::Of(posed.sample[Index(s[0])], posed.sample[Index(s[1])],
                                              posed.sample[Index(s[2])]);
-      const Vec3 x = AtBarycentric(triangle, ClosestOnTriangle(triangle, query.point));
-      const Vec3 v = query.point - x;
-      const double lambda =
-          Proximity(glm::length(v) - query.thickness, found.total.epsilon) *
-          Orthogonality(glm::dot(v, triangle.normal), glm::length(v), query.softness, query.floor);
-      wanted += lambda * (x + v);
+      const Vec3 x = AtBarycentric(triangle, ClosestOnTriangle(triangle, posed.point[j]));
+      const Vec3 v = posed.point[j] - x;
+      const double reach = glm::length(v);
+      const double orthogonality =
+          Orthogonality(glm::dot(v, triangle.normal), reach, query.softness, query.floor);
+      const double lambda = Proximity(reach - thickness, query.epsilon) * orthogonality;
+      const KinematicPath& path = PathBetween(ParentJoint(t), limb_point);
+      PathCosines cosine{};
+      const Vec3 direction = v / reach;
+      const double tau =
+          MeasurePath(path, direction, posed.bone_direction, constants.bone_length, cosine);
+      double length =
+          std::max(0.0, reach - thickness) / tau * PathFactor(path, cosine, other_length);
+      length += other_thickness * (thickness > 0.0 ? std::min(1.0, reach / thickness) : 1.0);
+      wanted += lambda * (x + length * direction);
       sum += lambda;
-      EXPECT_NEAR(found.triangle[t / 2][t % 2], lambda, 1e-9 * lambda);
+      max = std::max(max, lambda);
+      priority =
+          std::max(priority, Proximity(reach - thickness, query.gamma_epsilon) * orthogonality);
+      EXPECT_NEAR(found.importance.triangle[t][lane], lambda, 1e-9 * lambda);
     }
     Vec3 given{0.0};
-    for (std::size_t s = 0; s < kSampleCount; ++s) given += found.sample[s] * posed.sample[s];
-    Vec3 displacement = query.thickness * found.relations.inside;
-    for (std::size_t i = 0; i < query.paths.length; ++i) {
-      displacement += constants.bone_length[query.paths.bone[i]] * found.relations.along[i];
+    for (std::size_t s = 0; s < kSampleCount; ++s) {
+      given += found.mesh.sample[s][lane] * posed.sample[s];
     }
+    const Vec3 displacement =
+        Displacement(found.mesh.trunk, PathsFromTrunk(group), lane, other_length, other_thickness) +
+        Displacement(found.mesh.head, PathsFromHead(group), lane, other_length, other_thickness);
     given += posed.hips * displacement;
-    EXPECT_NEAR(found.total.sum, sum, 1e-9 * sum);
-    EXPECT_LT(glm::distance(given, wanted), 1e-9 * sum);
+    EXPECT_NEAR(found.importance.sum[lane], sum, 1e-9 * sum);
+    EXPECT_NEAR(found.importance.max[lane], max, 1e-9 * max);
+    EXPECT_NEAR(found.importance.priority[lane], priority, 1e-9 * priority);
+    EXPECT_NEAR(found.mesh.trunk.importance[lane] + found.mesh.head.importance[lane], sum,
+                1e-9 * sum);
+    EXPECT_LT(glm::distance(given, wanted), 1e-7 * sum);  // cosines are kept in single precision
+  }
+}
+
+TEST(MeshPaths, RunAlongTheBonesOfEveryTrianglesPath) {
+  for (std::size_t j = 0; j < kLimbPointCount; ++j) {
+    const auto to = static_cast<LimbPoint>(j);
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
+      const MeshPaths& paths =
+          t < kTrunkTriangleCount ? PathsFromTrunk(GroupOf(to)) : PathsFromHead(GroupOf(to));
+      const KinematicPath& path = PathBetween(ParentJoint(t), to);
+      for (std::size_t i = paths.begin[t]; i < paths.length; ++i) {
+        const std::size_t k = i - paths.begin[t];
+        EXPECT_EQ(paths.bone[i][LaneOf(to)], k < path.length ? path.bone[k] : 0);
+      }
+      EXPECT_GE(paths.length - paths.begin[t], path.length);
+    }
   }
 }
 

@@ -257,14 +257,17 @@ TEST(Normalize, ImportancesSumToOne) {
       const std::size_t points = settings.form.hand_points ? kLimbPointCount : kLimbJointCount;
       for (std::size_t j = 0; j < points; ++j) {
         const PointCoordinates& point = egocentric->point[j];
-        double sum = point.hand.importance + point.ground.importance;
-        sum += point.trunk.importance + point.head.importance;
+        const auto limb_point = static_cast<LimbPoint>(j);
+        const MeshCoordinates& mesh = egocentric->mesh[GroupOf(limb_point)];
+        const std::size_t lane = LaneOf(limb_point);
+        const double of_meshes = mesh.trunk.importance[lane] + mesh.head.importance[lane];
+        double sum = point.hand.importance + point.ground.importance + of_meshes;
         double samples = 0.0;
-        for (const double weight : point.sample) {
-          EXPECT_GE(weight, 0.0);
-          samples += weight;
+        for (const Quad& weight : mesh.sample) {
+          EXPECT_GE(weight[lane], 0.0);
+          samples += weight[lane];
         }
-        EXPECT_NEAR(samples, point.trunk.importance + point.head.importance, 1e-12);
+        EXPECT_NEAR(samples, of_meshes, 1e-12);
         for (const CapsuleRelation& r : point.capsule) sum += r.importance;
         EXPECT_NEAR(sum, 1.0, 1e-12) << name << " point " << j;
       }
@@ -286,9 +289,15 @@ TEST(Normalize, LeavesNoMetre) {
     EXPECT_LT(glm::distance(a->root, b->root), 1e-12);
     for (std::size_t j = 0; j < kLimbPointCount; ++j) {
       EXPECT_NEAR(a->point[j].importance_sum / b->point[j].importance_sum, 1.0, 1e-9);
-      for (std::size_t i = 0; i < kMaxPathLength; ++i) {
-        EXPECT_LT(glm::distance(a->point[j].trunk.along[i], b->point[j].trunk.along[i]), 1e-9);
-        EXPECT_LT(glm::distance(a->point[j].head.along[i], b->point[j].head.along[i]), 1e-9);
+      const auto point = static_cast<LimbPoint>(j);
+      const std::size_t lane = LaneOf(point);
+      const MeshCoordinates& mesh = a->mesh[GroupOf(point)];
+      const MeshCoordinates& other = b->mesh[GroupOf(point)];
+      for (std::size_t i = 0; i < PathsFromTrunk(GroupOf(point)).length; ++i) {
+        EXPECT_LT(glm::distance(mesh.trunk.along[i].At(lane), other.trunk.along[i].At(lane)), 1e-9);
+      }
+      for (std::size_t i = 0; i < PathsFromHead(GroupOf(point)).length; ++i) {
+        EXPECT_LT(glm::distance(mesh.head.along[i].At(lane), other.head.along[i].At(lane)), 1e-9);
       }
     }
   }
