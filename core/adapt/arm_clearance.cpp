@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/adapt/arm_solve.h"
 #include "core/egocentric/clearance.h"
 #include "core/geometry/rotation.h"
-#include "core/geometry/small_solve.h"
 #include "core/geometry/smooth.h"
 
 namespace ego {
 namespace {
 
-constexpr double kContactWeight = 10.0;  // of a touching hand point, against 1 of an arm sample
-// Two hands that touch each other move against each other: a softer pull, or they shiver.
-constexpr double kMutualWeight = 0.6;
-constexpr double kHandMoveDamping = 0.5;  // in the same unit
-constexpr double kHandTurnDamping = 1.0;  // likewise, about the length of a hand
-constexpr double kArmDamping = 1.0;       // likewise, about the length of an arm
-constexpr double kAnchorWeight = 10.0;    // of the wrist's place while the arm gives way
-constexpr double kArmStep = 0.15;         // radians a step can hardly exceed
-constexpr double kHandStep = 0.30;
+/// Weights of a touching hand point, against 1 of an arm sample; hands that touch each other give
+/// rows for both, and their surfaces are curved more: a softer pull, or they shiver.
+constexpr double kContactWeight = 10.0;
+constexpr double kMutualWeight = 3.0;
+constexpr double kAnchorWeight = 10.0;   // of the wrist's place while the arm gives way
+constexpr double kContactDamping = 0.5;  // that a contact's weight is measured against
 
 /// In heights. What lies deeper than the first, and a contact farther off than the second, counts
 /// less and less: which way leads out is undecided deep inside, and arms that do not fit between
@@ -37,20 +34,6 @@ constexpr double kSameWay = 0.5;
 /// Length of a gradient above which one way begins to lead out: where faces that look different
 /// ways are equally near, it is short.
 constexpr double kOneWay = 0.8;
-
-/// A wish of one sample: to move by `value` metres along `normal`.
-struct Row {
-  std::size_t sample;
-  Vec3 normal;
-  double value;
-  double weight;
-};
-struct Rows {
-  // Filled up to `count`; the rest is never touched.
-  std::array<Row, 2 * kClearanceSampleCount * kObstacleCount> row;
-  std::size_t count = 0;
-  void Add(const Row& wish) { row[count++] = wish; }
-};
 
 using ArmSamples = std::array<ArmSample, kClearanceSampleCount>;
 
@@ -84,10 +67,19 @@ bool MeasureMesh(const BodyObstacles& body, std::size_t obstacle, const ArmSampl
 /// How far the performer's side pulls at a direction out of a capsule, metres.
 double Nudge(const AdaptState& state) { return 0.015 * state.scale; }
 
+/// Way out over that pull below which it is undecided and counts less.
+constexpr double kUndecided = 1.5;
+
+struct CapsuleMeasure {
+  SignedDistance at;
+  Vec3 on_axis{0.0};   // the point of the axis that is met
+  double trust = 1.0;  // 0 where no way leads out
+};
+
 /// The same for a capsule. False where it is farther than `horizon`.
 bool MeasureCapsule(const AdaptState& state, const CapsuleObstacle& obstacle,
                     const ArmSample& sample, const Vec3& side_ls, double horizon,
-                    SignedDistance& out) {
+                    CapsuleMeasure& out) {
   // Along any direction the distance is less than the length, so `horizon` rejects safely.
   const double filled = obstacle.capsule->radius + sample.radius;
   const double nudge = Nudge(state);
@@ -97,8 +89,11 @@ bool MeasureCapsule(const AdaptState& state, const CapsuleObstacle& obstacle,
   if (glm::dot(from_axis, from_axis) > far * far) return false;
   // The performer's side of the obstacle decides where the avatar's lies deep inside.
   const Vec3 side = obstacle.capsule->frame * side_ls;
-  out.gradient = NormalizedOr(from_axis + nudge * side, side);
-  out.distance = glm::dot(out.gradient, from_axis) - filled;
+  const Vec3 way = from_axis + nudge * side;
+  out.at.gradient = NormalizedOr(way, side);
+  out.trust = Smoothstep(glm::length(way) / (kUndecided * nudge));
+  out.at.distance = glm::dot(out.at.gradient, from_axis) - filled;
+  out.on_axis = sample.center - from_axis;
   return true;
 }
 
@@ -135,8 +130,26 @@ struct SampleBall {
   double reach = 0.0;
 };
 
-void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
-                 const ArmSamples& samples, MeshMemory& memory, Rows& rows) {
+ArmSolve::Part PartOf(std::size_t sample) {
+  if (sample < 3) return ArmSolve::Part::kUpperArm;
+  return sample <= kFirstContactSample ? ArmSolve::Part::kForearm : ArmSolve::Part::kHand;
+}
+
+/// The part of the other arm that an obstacle is; kUpperArm for all that is none.
+ArmSolve::Part PartOfOther(std::size_t obstacle) {
+  if (obstacle == kObstacleCount - 1) return ArmSolve::Part::kHand;
+  return obstacle == kFirstCapsuleObstacle + 1 ? ArmSolve::Part::kForearm
+                                               : ArmSolve::Part::kUpperArm;
+}
+
+/// What one arm's samples want of the obstacles, as rows of `solve`. Returns the largest share of
+/// a contact.
+double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, MeshMemory& memory,
+                 ArmSolve& solve) {
+  ArmSamples samples;
+  for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
+    samples[s] = SampleOf(state.avatar, state.posed, arm, s);
+  }
   const double height = state.avatar.height;
   const double margin = state.scale * state.settings.clearance_margin;
   const double fade = state.scale * state.settings.contact_fade;
@@ -153,134 +166,73 @@ void CollectRows(const AdaptState& state, const BodyObstacles& body, Limb arm,
   }
   const std::size_t count =
       state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
+  double most_touching = 0.0;
   for (std::size_t s = 0; s < count; ++s) {
     const ArmSample& sample = samples[s];
+    const ArmSolve::Point point{arm, PartOf(s), sample.center};
+    const bool of_hand = s >= kFirstContactSample;
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
-      const bool of_hand = s >= kFirstContactSample;
       if (!of_hand && is_far[s < 3 ? 0 : 1][o]) continue;
       const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
       const double clearance = performer.distance * height;
       const bool other_hand = o == kObstacleCount - 1;
-      // Both arms move when one is in the other's way.
-      const bool other_arm = o == 2 || o == 3 || other_hand;
-      const double share = other_arm ? 0.5 : 1.0;
+      const bool other_arm =
+          o == kFirstCapsuleObstacle || o == kFirstCapsuleObstacle + 1 || other_hand;
       const double touching = of_hand && performer.known && clearance < fade
                                   ? performer.trust * (1.0 - Smoothstep(clearance / fade))
                                   : 0.0;
+      most_touching = std::max(most_touching, touching);
       // Far from an obstacle nothing can be asked: most samples of most postures.
       const double most = performer.known ? std::min(clearance, margin) : margin;
       SignedDistance now;
+      CapsuleMeasure capsule;
       if (o < kFirstCapsuleObstacle) {
         if (touching == 0.0 && body.LowerBound(o, sample) > most + 0.01 * height) continue;
         if (!MeasureMesh(body, o, sample, touching > 0.0, memory.entry[s][o], now)) continue;
       } else if (!MeasureCapsule(state, capsules[o - kFirstCapsuleObstacle], sample,
                                  performer.direction_ls, touching > 0.0 ? 10.0 * height : most,
-                                 now)) {
+                                 capsule)) {
         continue;
+      } else {
+        now = capsule.at;
       }
+      const auto ask = [&](double value, double weight) {
+        if (other_arm) {
+          solve.AskApart(point, {Mirror(arm), PartOfOther(o), capsule.on_axis}, now.gradient, value,
+                         capsule.trust * weight);
+        } else {
+          solve.Ask(point, now.gradient, value, capsule.trust * weight);
+        }
+      };
       if (touching > 0.0) {
         // A share `touching` of the way, whatever the damping.
         const double most_weight = other_hand ? kMutualWeight : kContactWeight;
         const double pull =
-            kHandMoveDamping * touching / (1.0 - touching + kHandMoveDamping / most_weight);
+            kContactDamping * touching / (1.0 - touching + kContactDamping / most_weight);
         const double wanted = clearance - now.distance;
         // Only where it really touches.
         const double decided = o < kFirstCapsuleObstacle
                                    ? touching * touching * memory.entry[s][o].one_way *
                                          Decided(state, performer, now.gradient)
                                    : 0.0;
-        rows.Add({s, now.gradient, share * wanted * ContactShare(wanted / height, decided), pull});
+        ask(wanted * ContactShare(wanted / height, decided), pull);
       }
       if (now.distance >= most) continue;
       const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
       const double weight = performer.trust * Smoothstep(short_of / (0.04 * height)) *
                             Bounded(short_of / (kDeep * height));
-      if (weight > 0.0) rows.Add({s, now.gradient, share * short_of, weight});
+      if (weight > 0.0) ask(short_of, weight);
     }
   }
+  return most_touching;
 }
 
-struct ArmMove {
-  LimbPosture posture;
-  Quat hand_ws = kIdentity;
-};
-
-/// Move and turn of a hand about its wrist that its rows ask for.
-struct HandMove {
-  Vec3 move{0.0};
-  Vec3 turn{0.0};
-};
-HandMove MoveHand(const AdaptState& state, Limb arm, const ArmSamples& samples, const Rows& rows) {
-  const bool can_turn = !state.avatar.skeleton.locked[Index(JointsOf(arm).end)];
-  const double length =
-      std::max(0.05 * state.scale, state.constants.bone_length[HandBone(FingertipPoint(arm))]);
-  const Vec3& wrist = state.posed.point[Index(EndPoint(arm))];
-  NormalEquations<6> equations;
-  for (std::size_t k = 0; k < 3; ++k) equations.Damp(k, kHandMoveDamping);
-  for (std::size_t k = 3; k < 6; ++k) equations.Damp(k, kHandTurnDamping * length * length);
-  for (std::size_t k = 0; k < rows.count; ++k) {
-    const Row& row = rows.row[k];
-    if (row.sample + 1 < kFirstContactSample) continue;  // the arm's own
-    const Vec3 arm_of = samples[row.sample].center - wrist;
-    const Vec3 turn = can_turn ? glm::cross(arm_of, row.normal) : Vec3{0.0};
-    equations.Add({row.normal.x, row.normal.y, row.normal.z, turn.x, turn.y, turn.z}, row.value,
-                  row.weight);
-  }
-  const std::array<double, 6> x = equations.Solve();
-  Vec3 turn{x[3], x[4], x[5]};
-  turn /= std::sqrt(1.0 + glm::dot(turn, turn) / (kHandStep * kHandStep));
-  return {{x[0], x[1], x[2]}, turn};
-}
-
-ArmMove MoveArm(const AdaptState& state, Limb arm, const ArmSamples& samples, const Rows& rows) {
-  const LimbChain& chain = state.chain[Index(arm)];
-  const LimbPosture& posture = state.limb[Index(arm)];
-  const LimbPlacement placed = Place(chain, posture);
-  const HandMove hand = MoveHand(state, arm, samples, rows);
-
-  const Vec3 axis_ls = MeasureFlexion(chain, posture.mid).axis_ls;
-  const Vec3 hinge = placed.base_ws * axis_ls;
-  const double reach = chain.Reach();
-  NormalEquations<4> equations;
-  for (std::size_t k = 0; k < 4; ++k) equations.Damp(k, kArmDamping * reach * reach + 1e-12);
-  const auto add = [&](const Vec3& point, bool beyond_elbow, const Vec3& normal, double value,
-                       double weight) {
-    const Vec3 turn = chain.base_locked ? Vec3{0.0} : glm::cross(point - chain.base_ws, normal);
-    const double flex = beyond_elbow && !chain.mid_locked
-                            ? glm::dot(hinge, glm::cross(point - placed.mid, normal))
-                            : 0.0;
-    equations.Add({turn.x, turn.y, turn.z, flex}, value, weight);
-  };
-  double anchor = 0.0;
-  for (std::size_t k = 0; k < rows.count; ++k) {
-    const Row& row = rows.row[k];
-    if (row.sample >= kFirstContactSample) {
-      anchor = std::max(anchor, row.weight);
-      continue;  // through the wrist
-    }
-    add(samples[row.sample].center, row.sample >= 3, row.normal, row.value, row.weight);
-  }
-  // The wrist stays, the more so the closer the hand is to a contact of its own.
+/// How much the wrist stays while the arm gives way: the more the closer it is to a surface, but
+/// for what it touches itself.
+double HoldOf(const AdaptState& state, Limb arm, double touching) {
   const double gap = 1.0 / std::max(1e-9, state.egocentric.point[Index(EndPoint(arm))].priority);
   const double near = 0.02 / 1.78 / (0.02 / 1.78 + gap);
-  const double weight = std::max(kAnchorWeight * near * near, anchor);
-  for (std::size_t k = 0; k < 3; ++k) {
-    Vec3 axis{0.0};
-    axis[static_cast<int>(k)] = 1.0;
-    add(placed.end, true, axis, hand.move[static_cast<int>(k)], weight);
-  }
-  const std::array<double, 4> x = equations.Solve();
-  double square = 0.0;
-  for (const double v : x) square += v * v;
-  const double shrink = 1.0 / std::sqrt(1.0 + square / (kArmStep * kArmStep));
-
-  ArmMove move;
-  move.posture = posture;
-  const Quat turn = FromRotationVector(shrink * Vec3{x[0], x[1], x[2]});
-  move.posture.base = glm::normalize(glm::conjugate(chain.frame_ws) * turn * placed.base_ws);
-  move.posture.mid = glm::normalize(FromRotationVector(shrink * x[3] * axis_ls) * posture.mid);
-  move.hand_ws = glm::normalize(FromRotationVector(hand.turn) * state.extremity_ws[Index(arm)]);
-  return move;
+  return kAnchorWeight * near * near * (1.0 - touching);
 }
 
 }  // namespace
@@ -289,23 +241,17 @@ void KeepArmsClear(AdaptState& state) {
   if (!state.egocentric.form.clearance || state.settings.clearance_steps <= 0) return;
   const BodyObstacles body(state.avatar, state.posed);
   std::array<MeshMemory, 2> memory;
+  constexpr std::array<Limb, 2> kArms = {Limb::kLeftArm, Limb::kRightArm};
   for (int step = 0; step < state.settings.clearance_steps; ++step) {
-    std::array<ArmMove, 2> move;
-    bool any = false;
-    for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
-      ArmSamples samples;
-      for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
-        samples[s] = SampleOf(state.avatar, state.posed, arm, s);
-      }
-      Rows rows;
-      CollectRows(state, body, arm, samples, memory[Index(arm)], rows);
-      move[Index(arm)] = {state.limb[Index(arm)], state.extremity_ws[Index(arm)]};
-      if (rows.count == 0) continue;
-      move[Index(arm)] = MoveArm(state, arm, samples, rows);
-      any = true;
+    ArmSolve solve(state);
+    std::array<double, 2> touching;
+    for (const Limb arm : kArms) {
+      touching[Index(arm)] = AskForArm(state, body, arm, memory[Index(arm)], solve);
     }
-    if (!any) return;
-    for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
+    if (solve.empty()) return;
+    for (const Limb arm : kArms) solve.HoldWrist(arm, HoldOf(state, arm, touching[Index(arm)]));
+    const std::array<ArmSolve::Move, 2> move = solve.Solve();
+    for (const Limb arm : kArms) {
       state.extremity_ws[Index(arm)] = move[Index(arm)].hand_ws;
       state.Apply(arm, move[Index(arm)].posture);
     }

@@ -12,8 +12,8 @@ namespace ego {
 /// With c the performer's own clearance of a sample, scaled by the heights, the avatar's is asked
 /// to be at least c where c < 0 and m (1 - exp(-c / m)) beyond: never more than the performer's, so
 /// that identity and scale are exact. Wrist, palm and fingertip near a surface are asked for c
-/// itself, from both sides. Each step finds the smallest move and turn of the hand, then the
-/// smallest move of shoulder and elbow (damped least squares), for both arms from the same state.
+/// itself, from both sides. Each step is one damped least-squares solution over the shoulders,
+/// elbows and hands of both arms (see ArmSolve).
 void KeepArmsClear(AdaptState& state);
 
 }  // namespace ego
