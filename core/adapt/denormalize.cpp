@@ -256,11 +256,13 @@ void SumBody(AdaptState& state) {
   for (const Limb limb : kLimbs) {
     const NormalCoordinates& normal = state.egocentric.normal[Index(limb)];
     Lanes3 sum{};
-    for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
-      const TangentPair& tangent = state.posed.tangent[t];
-      sum += normal.triangle[t].x * state.posed.triangle[t].normal;
-      sum += normal.triangle[t].y * tangent.along;
-      sum += normal.triangle[t].z * tangent.third;
+    for (std::size_t t = 0; t < kTriangleCount; t += kLaneCount<Lanes>) {
+      const std::size_t first = t % 4;
+      const TangentQuad& tangent = state.posed.tangent[t / 4];
+      const Lanes3 weight = Load<Lanes>(normal.triangle[t / 4], first);
+      sum += weight.x * Load<Lanes>(state.posed.triangle[t / 4].normal, first);
+      sum += weight.y * Load<Lanes>(tangent.along, first);
+      sum += weight.z * Load<Lanes>(tangent.third, first);
     }
     state.normal_sum[Index(limb)] = Sum(sum);
   }

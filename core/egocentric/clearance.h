@@ -31,7 +31,7 @@ struct BodyObstacles {
   }
 
  private:
-  std::array<std::span<const TrianglePair>, 2> mesh_;
+  std::array<std::span<const TriangleQuad>, 2> mesh_;
   std::array<Box, 2> box_;
   std::array<double, 2> width_;
   double height_;
@@ -64,8 +64,8 @@ inline constexpr std::size_t kFirstCapsuleObstacle = 2;
 using CapsuleObstacles = std::array<CapsuleObstacle, kObstacleCount - kFirstCapsuleObstacle>;
 CapsuleObstacles CapsuleObstaclesOf(const PosedBody& posed, Limb arm);
 
-/// The performer's own clearance of all samples of an arm.
+/// The performer's own clearance of all samples of an arm. The same bits for any `lanes`.
 void MeasureClearance(const Body& performer, const PosedBody& posed, Limb arm,
-                      EgocentricPose::ArmClearance& out);
+                      EgocentricPose::ArmClearance& out, LaneWidth lanes = FastestLanes());
 
 }  // namespace ego

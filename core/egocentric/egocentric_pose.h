@@ -77,9 +77,9 @@ struct PointCoordinates {
 /// is kept as the normal's components in the primitive's tangent frame (triangles), bone frame
 /// (capsules) and the world (ground): the same information, without the singularity that the
 /// smallest rotation between two normals has exactly where surfaces face each other. Those of the
-/// triangles, two side by side, are multiplied by lambda-hat of `OrientingPoint`.
+/// triangles, four side by side, are multiplied by lambda-hat of `OrientingPoint`.
 struct NormalCoordinates {
-  std::array<Lanes3, kTriangleCount / 2> triangle{};
+  std::array<QuadVectors, kTriangleCount / 4> triangle{};
   std::array<Vec3, kOtherSegmentCount> capsule{};
   Vec3 ground{0.0};
 };

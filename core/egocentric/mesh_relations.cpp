@@ -126,7 +126,7 @@ EGO_LANES_INLINE void SpreadOverBones(const Bones& bones, std::size_t begin, std
   for (std::size_t i = begin; i < end; ++i) along.by_cosine[i] += part[i] * step;
 }
 
-/// One mesh: the triangle pairs from `begin` up to `end`. For the points from `first` on.
+/// One mesh: the triangles from `begin` up to `end`. For the points from `first` on.
 template <class V>
 EGO_LANES_INLINE void RelateToMesh(const MeshQuery& query, const Points& points,
                                    const MeshPaths& paths, const Bones& bones, std::size_t first,
@@ -141,8 +141,8 @@ EGO_LANES_INLINE void RelateToMesh(const MeshQuery& query, const Points& points,
   const V before = totals.sum;
   LaneVectors<V> inside_sum{};
   Alongs<V> along;
-  for (std::size_t t = 2 * begin; t < 2 * end; ++t) {
-    const TriangleLanes<V> triangle = Splat<V>(query.posed.triangle[t / 2], t % 2);
+  for (std::size_t t = begin; t < end; ++t) {
+    const TriangleLanes<V> triangle = Splat<V>(query.posed.triangle[t / 4], t % 4);
     const Displacements<V> found =
         Displace<V>(query, triangle, corners[t], point, thickness, totals);
     Store<V>(found.importance, importances.triangle[t], first);
@@ -173,10 +173,10 @@ EGO_LANES_INLINE void RelatePoints(const MeshQuery& query, const Points& points,
                                    const Bones& to_trunk, const Bones& to_head, std::size_t first,
                                    MeshCoordinates& relations, MeshImportances& importances) {
   Totals<V> totals;
-  RelateToMesh<V>(query, points, PathsFromTrunk(query.group), to_trunk, first, 0, kTrunkPairCount,
-                  totals, relations.trunk, importances);
-  RelateToMesh<V>(query, points, PathsFromHead(query.group), to_head, first, kTrunkPairCount,
-                  kTrianglePairCount, totals, relations.head, importances);
+  RelateToMesh<V>(query, points, PathsFromTrunk(query.group), to_trunk, first, 0,
+                  kTrunkTriangleCount, totals, relations.trunk, importances);
+  RelateToMesh<V>(query, points, PathsFromHead(query.group), to_head, first, kTrunkTriangleCount,
+                  kTriangleCount, totals, relations.head, importances);
   for (std::size_t s = 0; s < kSampleCount; ++s) {
     Store<V>(totals.sample[s], relations.sample[s], first);
   }

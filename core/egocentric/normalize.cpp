@@ -118,13 +118,18 @@ void NormalizeNormal(const Context& context, Limb limb, const MeshImportances& i
   const Vec3& normal_ms =
       IsArm(limb) ? surface.hand[side].palm_normal_ms : surface.foot[side].sole_normal_ms;
   const Vec3 normal = context.posed.pose.Rotation(JointsOf(limb).end) * normal_ms;
-  const Lanes3 both = Splat(normal);
-  for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
-    const TangentPair& tangent = context.posed.tangent[t];
-    const Lanes weight = {share * importance.triangle[2 * t][lane],
-                          share * importance.triangle[2 * t + 1][lane]};
-    out.triangle[t] = weight * Lanes3{Dot(both, context.posed.triangle[t].normal),
-                                      Dot(both, tangent.along), Dot(both, tangent.third)};
+  const Lanes3 both = Splat<Lanes>(normal);
+  for (std::size_t t = 0; t < kTriangleCount; t += kLaneCount<Lanes>) {
+    const std::size_t first = t % 4;
+    const TangentQuad& tangent = context.posed.tangent[t / 4];
+    const Lanes weight = {share * importance.triangle[t][lane],
+                          share * importance.triangle[t + 1][lane]};
+    const auto part = [&](const QuadVectors& of) {
+      return weight * Dot(both, Load<Lanes>(of, first));
+    };
+    Store<Lanes>(Lanes3{part(context.posed.triangle[t / 4].normal), part(tangent.along),
+                        part(tangent.third)},
+                 out.triangle[t / 4], first);
   }
   for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
     const PosedCapsule& capsule = context.posed.capsule[Index(OtherSegment(limb, slot))];

@@ -29,40 +29,75 @@ double Thickness(const Body& body, LimbPoint point) {
   return limb < 2 ? body.surface.hand[limb].half_thickness : lower;
 }
 
-/// Whether a pair of triangles looks up or down on the template, so that +Y says nothing about its
-/// plane.
-const std::array<bool, kTrianglePairCount>& LooksUpOrDown() {
-  static const std::array<bool, kTrianglePairCount> kAll = [] {
+/// Which triangles look up or down on the template, so that +Y says nothing about their plane: 1,
+/// the others 0.
+const std::array<Quad, kTriangleQuadCount>& LooksUpOrDown() {
+  static const std::array<Quad, kTriangleQuadCount> kAll = [] {
     const Body body = TemplateBody();
-    std::array<bool, kTrianglePairCount> all{};
-    for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
-      const SampleTriangle& s = SampleTriangles()[2 * t];
+    std::array<Quad, kTriangleQuadCount> all{};
+    for (std::size_t t = 0; t < kTriangleCount; ++t) {
+      const SampleTriangle& s = SampleTriangles()[t];
       const auto at = [&](std::size_t k) { return body.surface.sample_ms[Index(s[k])]; };
-      all[t] = std::abs(Triangle::Of(at(0), at(1), at(2)).normal.y) > 0.8;
+      const bool vertical = std::abs(Triangle::Of(at(0), at(1), at(2)).normal.y) > 0.8;
+      all[t / 4][t % 4] = vertical ? 1.0 : 0.0;
     }
     return all;
   }();
   return kAll;
 }
 
-TangentPair TangentFrames(bool vertical, const Lanes3& normal, const Mat3& hips) {
-  const Vec3& along_first = vertical ? hips[2] : hips[1];
-  const Vec3& otherwise = vertical ? hips[1] : hips[2];
-  const Lanes3 first = Splat(along_first);
-  const Lanes3 part = first - Dot(first, normal) * normal;
-  const Lanes length = Sqrt<Lanes>(Dot(part, part));
-  const LaneMask<Lanes> is_long = length > Splat(1e-12);
-  TangentPair frame;
-  frame.along = (Splat(1.0) / Select<Lanes>(is_long, length, Splat(1.0))) * part;
-  for (std::size_t lane = 0; lane < kLaneCount<Lanes>; ++lane) {
-    if (is_long[lane]) continue;
-    const Vec3 along = NormalizedOr(Perpendicular(otherwise, normal.At(lane)), otherwise);
-    frame.along.x[lane] = along.x;
-    frame.along.y[lane] = along.y;
-    frame.along.z[lane] = along.z;
+/// Corners of four triangles.
+struct CornerQuad {
+  QuadVectors a;
+  QuadVectors b;
+  QuadVectors c;
+};
+using Corners = std::array<CornerQuad, kTriangleQuadCount>;
+
+/// `v` over its length, or `otherwise` where it has none.
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> UnitOr(const LaneVectors<V>& v, const LaneVectors<V>& otherwise) {
+  const V one = Splat<V>(1.0);
+  const V length = Sqrt<V>(Dot(v, v));
+  const LaneMask<V> is_long = length > Splat<V>(1e-12);
+  return Select<V>(is_long, (one / Select<V>(is_long, length, one)) * v, otherwise);
+}
+
+template <class V>
+EGO_LANES_INLINE void PlaceQuad(const CornerQuad& corner, const Quad& looks_up_or_down,
+                                std::size_t first, const Mat3& hips, TriangleQuad& triangle,
+                                TangentQuad& tangent) {
+  const TriangleLanes<V> placed = MakeTriangles<V>(
+      Load<V>(corner.a, first), Load<V>(corner.b, first), Load<V>(corner.c, first));
+  const LaneMask<V> vertical = Load<V>(looks_up_or_down, first) > Splat<V>(0.5);
+  const LaneVectors<V> up = Splat<V>(hips[1]);
+  const LaneVectors<V> ahead = Splat<V>(hips[2]);
+  const LaneVectors<V> axis = Select<V>(vertical, ahead, up);
+  const LaneVectors<V> other = Select<V>(vertical, up, ahead);
+  const auto across = [&](const LaneVectors<V>& v) __attribute__((always_inline)) {
+    return v - Dot(v, placed.normal) * placed.normal;
+  };
+  const LaneVectors<V> along = UnitOr<V>(across(axis), UnitOr<V>(across(other), other));
+  Store<V>(placed, triangle, first);
+  Store<V>(along, tangent.along, first);
+  Store<V>(Cross(placed.normal, along), tangent.third, first);
+}
+
+void PlaceInTwoLanes(const Corners& corners, PosedBody& posed) {
+  for (std::size_t q = 0; q < kTriangleQuadCount; ++q) {
+    for (const std::size_t first : {0, 2}) {
+      PlaceQuad<Lanes>(corners[q], LooksUpOrDown()[q], first, posed.hips, posed.triangle[q],
+                       posed.tangent[q]);
+    }
   }
-  frame.third = Cross(normal, frame.along);
-  return frame;
+}
+
+EGO_WIDE_LANES_TARGET
+void PlaceInFourLanes(const Corners& corners, PosedBody& posed) {
+  for (std::size_t q = 0; q < kTriangleQuadCount; ++q) {
+    PlaceQuad<WideLanes>(corners[q], LooksUpOrDown()[q], 0, posed.hips, posed.triangle[q],
+                         posed.tangent[q]);
+  }
 }
 
 }  // namespace
@@ -126,7 +161,8 @@ Vec2 StandingPlace(const Body& body, const BodyConstants& constants, Limb leg, c
   return Smoothstep(2.0 * glm::dot(side, level(hips_ws))) * (middle.x * side + middle.z * ahead);
 }
 
-void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed) {
+void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed,
+                    LaneWidth lanes) {
   std::array<Vec3, kSampleCount>& sample = posed.sample;
   for (std::size_t i = 0; i < kSampleCount; ++i) {
     const Attachment& a = body.surface.attachment[i];
@@ -139,14 +175,17 @@ void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody&
     sample[i] = sum;
   }
   posed.hips = glm::mat3_cast(posed.pose.rotation_ws[0]);
-  const std::array<bool, kTrianglePairCount>& vertical = LooksUpOrDown();
-  const std::array<SampleTriangle, kTriangleCount>& corners = SampleTriangles();
-  for (std::size_t t = 0; t < kTrianglePairCount; ++t) {
-    const auto corner = [&](std::size_t k) {
-      return Pair(sample[Index(corners[2 * t][k])], sample[Index(corners[2 * t + 1][k])]);
-    };
-    posed.triangle[t] = MakeTrianglePair(corner(0), corner(1), corner(2));
-    posed.tangent[t] = TangentFrames(vertical[t], posed.triangle[t].normal, posed.hips);
+  Corners corners;
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const SampleTriangle& s = SampleTriangles()[t];
+    corners[t / 4].a.Set(t % 4, sample[Index(s[0])]);
+    corners[t / 4].b.Set(t % 4, sample[Index(s[1])]);
+    corners[t / 4].c.Set(t % 4, sample[Index(s[2])]);
+  }
+  if (lanes == LaneWidth::kFour) {
+    PlaceInFourLanes(corners, posed);
+  } else {
+    PlaceInTwoLanes(corners, posed);
   }
 }
 
@@ -186,10 +225,16 @@ void PlaceHand(const Body& body, const BodyConstants& constants, Limb arm, Posed
 void MovePosedBody(const Vec3& by, PosedBody& posed) {
   for (Vec3& p : posed.pose.position_ws) p += by;
   for (Vec3& p : posed.sample) p += by;
-  const Lanes3 both = Splat(by);
-  for (TrianglePair& triangle : posed.triangle) {
-    triangle.a += both;
-    triangle.center += both;
+  const auto move_four = [&](QuadVectors& four) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      four.x[k] += by.x;
+      four.y[k] += by.y;
+      four.z[k] += by.z;
+    }
+  };
+  for (TriangleQuad& triangle : posed.triangle) {
+    move_four(triangle.a);
+    move_four(triangle.center);
   }
   const auto move = [&](PosedCapsule& capsule) {
     capsule.start += by;

@@ -7,7 +7,7 @@
 #include "core/egocentric/kinematic_path.h"
 #include "core/egocentric/limb_point.h"
 #include "core/geometry/closest_point.h"
-#include "core/geometry/triangle_pair.h"
+#include "core/geometry/triangle_quad.h"
 #include "core/skeleton/pose.h"
 
 namespace ego {
@@ -35,16 +35,17 @@ struct PosedCapsule {
   Vec3 At(double t) const { return start + t * (end - start); }
 };
 
-/// The triangles 2k and 2k + 1, mirror images of each other, are treated side by side.
-inline constexpr std::size_t kTrianglePairCount = kTriangleCount / 2;
-inline constexpr std::size_t kTrunkPairCount = kTrunkTriangleCount / 2;
+/// The triangles are treated four by four: two and their mirror images.
+inline constexpr std::size_t kTriangleQuadCount = kTriangleCount / 4;
+inline constexpr std::size_t kTrunkQuadCount = kTrunkTriangleCount / 4;
+static_assert(kTrunkTriangleCount % 4 == 0 && kTriangleCount % 4 == 0);
 
-/// Tangent frames of two triangles: normal (see TrianglePair), along, third. `along` is the part of
-/// the hips' +Y (of +Z for faces that look up or down in the template) at right angles to the
+/// Tangent frames of four triangles: normal (see TriangleFields), along, third. `along` is the part
+/// of the hips' +Y (of +Z for faces that look up or down in the template) at right angles to the
 /// normal, so that the frames of mirrored triangles are mirror images.
-struct TangentPair {
-  Lanes3 along;
-  Lanes3 third;
+struct TangentQuad {
+  QuadVectors along;
+  QuadVectors third;
 };
 
 /// A posed body with everything that the egocentric coordinates refer to, world space.
@@ -52,8 +53,8 @@ struct PosedBody {
   ModelPose pose;
   Mat3 hips{1.0};  // rotation of the root, the frame of displacements from trunk and head
   std::array<Vec3, kSampleCount> sample;
-  std::array<TrianglePair, kTrianglePairCount> triangle;
-  std::array<TangentPair, kTrianglePairCount> tangent;
+  std::array<TriangleQuad, kTriangleQuadCount> triangle;
+  std::array<TangentQuad, kTriangleQuadCount> tangent;
   std::array<PosedCapsule, kSegmentCount> capsule;
   /// The hands as capsules from wrist to fingertip (palm and fingertip of one hand refer to the
   /// other's).
@@ -90,8 +91,10 @@ Vec2 StandingPlace(const Body& body, const BodyConstants& constants, Limb leg, c
 /// What a foot stands on, by how far it is pitched: 0 heel, 0.5 flat, 1 ball.
 double StandsOnBall(const Body& body, Limb leg, const Quat& foot_ws);
 
-/// Samples, triangles and their frames again, from joints already in `posed.pose`.
-void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed);
+/// Samples, triangles and their frames again, from joints already in `posed.pose`. The same bits
+/// for any `lanes`.
+void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody& posed,
+                    LaneWidth lanes = FastestLanes());
 
 /// The capsules, points and hand of one limb again, from joints already in `posed.pose`.
 void PlaceLimb(const Body& body, const BodyConstants& constants, Limb limb, PosedBody& posed);

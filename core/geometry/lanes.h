@@ -21,8 +21,8 @@
 namespace ego {
 
 /// Doubles that are computed side by side, each exactly as it would be alone: two, which every
-/// 64-bit processor has, or four, which most have. Sums over lanes are taken so that both widths
-/// give the same bits (see `Sum`).
+/// 64-bit processor has, or four, which most have. Nothing is summed across lanes of a width that
+/// the processor chooses, so that both give the same bits.
 using Lanes = double __attribute__((vector_size(16)));
 using WideLanes = double __attribute__((vector_size(32)));
 template <class V>
@@ -85,16 +85,6 @@ template <class V>
 EGO_LANES_INLINE void Store(const V& lanes, Quad& quad, std::size_t first) {
   __builtin_memcpy(quad.data() + first, &lanes, sizeof(V));
 }
-/// The first pair, or both.
-template <class V>
-EGO_LANES_INLINE V Join(const Lanes& first, const Lanes& second) {
-  if constexpr (kLaneCount<V> == 2) {
-    return first;
-  } else {
-    return __builtin_shufflevector(first, second, 0, 1, 2, 3);
-  }
-}
-
 /// Vectors side by side; like those of GLM not initialised by themselves.
 template <class V>
 struct LaneVectors {
@@ -134,6 +124,11 @@ template <class V = Lanes>
 EGO_LANES_INLINE LaneVectors<V> Splat(const Vec3& v) {
   return {Splat<V>(v.x), Splat<V>(v.y), Splat<V>(v.z)};
 }
+/// Vector `k` of four in all lanes.
+template <class V>
+EGO_LANES_INLINE LaneVectors<V> Splat(const QuadVectors& four, std::size_t k) {
+  return {Splat<V>(four.x[k]), Splat<V>(four.y[k]), Splat<V>(four.z[k])};
+}
 inline Lanes3 Pair(const Vec3& a, const Vec3& b) {
   return {Lanes{a.x, b.x}, Lanes{a.y, b.y}, Lanes{a.z, b.z}};
 }
@@ -168,30 +163,7 @@ EGO_LANES_INLINE LaneVectors<V> Select(const LaneMask<V>& mask, const LaneVector
                                        const LaneVectors<V>& b) {
   return {Select<V>(mask, a.x, b.x), Select<V>(mask, a.y, b.y), Select<V>(mask, a.z, b.z)};
 }
-template <class V>
-EGO_LANES_INLINE LaneVectors<V> Join(const Lanes3& first, const Lanes3& second) {
-  return {Join<V>(first.x, second.x), Join<V>(first.y, second.y), Join<V>(first.z, second.z)};
-}
-
-/// Sum over the lanes. Over an array of pairs two lanes wide, the even pairs are summed apart from
-/// the odd ones, so that four lanes give the same bits.
-template <class V>
-EGO_LANES_INLINE double Sum(const V& x) {
-  if constexpr (kLaneCount<V> == 2) {
-    return x[0] + x[1];
-  } else {
-    return (x[0] + x[1]) + (x[2] + x[3]);
-  }
-}
-template <class V>
-EGO_LANES_INLINE Vec3 Sum(const LaneVectors<V>& v) {
-  return {Sum(v.x), Sum(v.y), Sum(v.z)};
-}
-template <class V>
-EGO_LANES_INLINE double Largest(const V& x) {
-  double most = x[0];
-  for (std::size_t k = 1; k < kLaneCount<V>; ++k) most = most < x[k] ? x[k] : most;
-  return most;
-}
+/// Sum over the lanes.
+inline Vec3 Sum(const Lanes3& v) { return v.At(0) + v.At(1); }
 
 }  // namespace ego

@@ -14,64 +14,53 @@ namespace {
 /// than 1.6e-5 of it and are left out: the distance changes by micrometres.
 constexpr double kNegligible = 16.0;
 
-const TrianglePair kNone{};  // without area: weighs nothing
+using Mesh = std::span<const TriangleQuad>;
 
-/// The pair whose centroid is nearest to `p`, and which of both.
-struct Nearest {
-  std::size_t pair = 0;
-  std::size_t lane = 0;
-};
+/// The triangle whose centroid is nearest to `p`; of equally near ones of a lane the first.
 template <class V>
-EGO_LANES_INLINE Nearest NearestCentroid(std::span<const TrianglePair> mesh, const Vec3& p) {
-  constexpr std::size_t kPairs = kLaneCount<V> / 2;
-  const LaneVectors<V> point = Splat<V>(p);
-  V least = Splat<V>(std::numeric_limits<double>::max());
-  V nearest{};
-  for (std::size_t k = 0; k < mesh.size(); k += kPairs) {
-    const std::size_t other = std::min(k + 1, mesh.size() - 1);  // once more at the end: no harm
-    const LaneVectors<V> d = point - Join<V>(mesh[k].center, mesh[other].center);
-    const V square = Dot(d, d);
-    nearest = Select<V>(square < least, Splat<V>(static_cast<double>(k)), nearest);
-    least = Min<V>(least, square);
+EGO_LANES_INLINE std::size_t NearestCentroid(Mesh mesh, const LaneVectors<V>& point) {
+  Quad nearest;
+  Quad least;
+  for (std::size_t first = 0; first < 4; first += kLaneCount<V>) {
+    V square_least = Splat<V>(std::numeric_limits<double>::max());
+    V index{};
+    for (std::size_t q = 0; q < mesh.size(); ++q) {
+      const LaneVectors<V> d = point - Load<V>(mesh[q].center, first);
+      const V square = Dot(d, d);
+      index = Select<V>(square < square_least, Splat<V>(static_cast<double>(q)), index);
+      square_least = Min<V>(square_least, square);
+    }
+    Store<V>(index, nearest, first);
+    Store<V>(square_least, least, first);
   }
-  // Of equally near ones the first, in any width.
-  Nearest found;
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t l = 0; l < kLaneCount<V>; ++l) {
-    const std::size_t pair =
-        std::min(static_cast<std::size_t>(nearest[l]) + l / 2, mesh.size() - 1);
-    if (least[l] < best || (least[l] == best && pair < found.pair)) found = {pair, l % 2};
-    best = std::min(best, static_cast<double>(least[l]));
+  std::size_t lane = 0;
+  for (std::size_t k = 1; k < 4; ++k) {
+    if (least[k] < least[lane]) lane = k;
   }
-  return found;
+  return 4 * static_cast<std::size_t>(nearest[lane]) + lane;
 }
 
 /// Distance from a point beyond which no triangle counts.
 template <class V>
-EGO_LANES_INLINE double Horizon(std::span<const TrianglePair> mesh, const Vec3& p, double e2) {
-  const Nearest nearest = NearestCentroid<V>(mesh, p);
-  const Lanes3 away = ClosestOnTriangles(mesh[nearest.pair], Splat(p)).away;
-  return std::sqrt(kNegligible * (Dot(away, away)[nearest.lane] + e2));
+EGO_LANES_INLINE double Horizon(Mesh mesh, const LaneVectors<V>& point, double e2) {
+  const std::size_t nearest = NearestCentroid<V>(mesh, point);
+  const std::size_t first = nearest % 4 / kLaneCount<V> * kLaneCount<V>;
+  const LaneVectors<V> away = ClosestOnTriangles(Load<V>(mesh[nearest / 4], first), point).away;
+  return std::sqrt(kNegligible * (Dot(away, away)[nearest % 4 - first] + e2));
 }
 
-/// Weighted sums over triangles.
+/// Weighted sums over triangles, by their place among four.
 struct Sums {
-  double weight = 0.0;
-  double plane = 0.0;
-  double square = 0.0;
-  Vec3 normal{0.0};
-  Vec3 away{0.0};
-  friend Sums operator+(const Sums& a, const Sums& b) {
-    return {a.weight + b.weight, a.plane + b.plane, a.square + b.square, a.normal + b.normal,
-            a.away + b.away};
-  }
+  Quad weight;
+  Quad plane;
+  Quad square;
+  QuadVectors normal;
+  QuadVectors away;
 };
 
-/// Sums over every second pair from `first` on, or over all pairs where the lanes take two.
 template <class V>
-EGO_LANES_INLINE Sums SumTriangles(std::span<const TrianglePair> mesh, std::size_t first,
-                                   const Vec3& p, double square_epsilon, double far) {
-  const LaneVectors<V> point = Splat<V>(p);
+EGO_LANES_INLINE void SumTriangles(Mesh mesh, const LaneVectors<V>& point, std::size_t first,
+                                   double square_epsilon, double far, Sums& sums) {
   const V e2 = Splat<V>(square_epsilon);
   const V horizon = Splat<V>(far);
   V weights{};
@@ -79,8 +68,8 @@ EGO_LANES_INLINE Sums SumTriangles(std::span<const TrianglePair> mesh, std::size
   V squares{};
   LaneVectors<V> normals{};
   LaneVectors<V> aways{};
-  for (std::size_t k = first; k < mesh.size(); k += 2) {
-    const TriangleLanes<V> triangle = Join<V>(mesh[k], k + 1 < mesh.size() ? mesh[k + 1] : kNone);
+  for (const TriangleQuad& quad : mesh) {
+    const TriangleLanes<V> triangle = Load<V>(quad, first);
     const LaneVectors<V> from_center = point - triangle.center;
     const V bound = horizon + triangle.reach;
     const V height = Dot(triangle.normal, from_center);
@@ -98,36 +87,50 @@ EGO_LANES_INLINE Sums SumTriangles(std::span<const TrianglePair> mesh, std::size
     normals += weight * triangle.normal;
     aways += weight * away;
   }
-  return {Sum(weights), Sum(planes), Sum(squares), Sum(normals), Sum(aways)};
+  Store<V>(weights, sums.weight, first);
+  Store<V>(planes, sums.plane, first);
+  Store<V>(squares, sums.square, first);
+  Store<V>(normals, sums.normal, first);
+  Store<V>(aways, sums.away, first);
 }
 
-Sums SumInTwoLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2) {
-  const double horizon = Horizon<Lanes>(mesh, p, e2);
-  return SumTriangles<Lanes>(mesh, 0, p, e2, horizon) +
-         SumTriangles<Lanes>(mesh, 1, p, e2, horizon);
+void SumInTwoLanes(Mesh mesh, const Vec3& p, double e2, Sums& sums) {
+  const Lanes3 point = Splat<Lanes>(p);
+  const double horizon = Horizon<Lanes>(mesh, point, e2);
+  SumTriangles<Lanes>(mesh, point, 0, e2, horizon, sums);
+  SumTriangles<Lanes>(mesh, point, 2, e2, horizon, sums);
 }
 
 EGO_WIDE_LANES_TARGET
-Sums SumInFourLanes(std::span<const TrianglePair> mesh, const Vec3& p, double e2) {
-  const double horizon = Horizon<WideLanes>(mesh, p, e2);
-  return SumTriangles<WideLanes>(mesh, 0, p, e2, horizon);
+void SumInFourLanes(Mesh mesh, const Vec3& p, double e2, Sums& sums) {
+  const LaneVectors<WideLanes> point = Splat<WideLanes>(p);
+  const double horizon = Horizon<WideLanes>(mesh, point, e2);
+  SumTriangles<WideLanes>(mesh, point, 0, e2, horizon, sums);
 }
+
+double Total(const Quad& four) { return (four[0] + four[1]) + (four[2] + four[3]); }
+Vec3 Total(const QuadVectors& four) { return {Total(four.x), Total(four.y), Total(four.z)}; }
 
 }  // namespace
 
-SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
+SignedDistance SmoothMeshDistance(std::span<const TriangleQuad> mesh, const Vec3& p, double epsilon,
                                   double width, LaneWidth lanes) {
   if (mesh.empty()) return {width, Vec3{0.0}};
   const double e2 = epsilon * epsilon;
-  const Sums sum =
-      lanes == LaneWidth::kFour ? SumInFourLanes(mesh, p, e2) : SumInTwoLanes(mesh, p, e2);
-  if (!(sum.weight > 0.0)) return {width, Vec3{0.0}};
-  const double plane = sum.plane / sum.weight;
-  const double away = std::sqrt(sum.square / sum.weight);
+  Sums sums;
+  if (lanes == LaneWidth::kFour) {
+    SumInFourLanes(mesh, p, e2, sums);
+  } else {
+    SumInTwoLanes(mesh, p, e2, sums);
+  }
+  const double weight = Total(sums.weight);
+  if (!(weight > 0.0)) return {width, Vec3{0.0}};
+  const double plane = Total(sums.plane) / weight;
+  const double away = std::sqrt(Total(sums.square) / weight);
   const double outside =
       1.0 - (1.0 - Smoothstep(plane / (2.0 * epsilon))) * (1.0 - Smoothstep(away / width - 1.0));
-  const Vec3 normal = sum.normal / sum.weight;
-  const Vec3 away_gradient = away > 1e-12 ? sum.away / (sum.weight * away) : normal;
+  const Vec3 normal = Total(sums.normal) / weight;
+  const Vec3 away_gradient = away > 1e-12 ? Total(sums.away) / (weight * away) : normal;
   return {plane + outside * (away - plane), glm::mix(normal, away_gradient, outside)};
 }
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/geometry/triangle_pair.h"
+#include "core/geometry/triangle_quad.h"
 
 namespace ego {
 
@@ -19,9 +19,9 @@ struct SignedDistance {
 /// the surface of the signed distances to the triangles' planes, away from it of the unsigned
 /// distances, where planes seen from the side would lie about the sign. `epsilon` (metres) is the
 /// width of the smoothing; beyond `width` (metres, about half the mesh's own) only the unsigned
-/// distance counts. Infinitely differentiable but where closest points change their feature. The
-/// same bits for any `lanes`.
-SignedDistance SmoothMeshDistance(std::span<const TrianglePair> mesh, const Vec3& p, double epsilon,
+/// distance counts. Infinitely differentiable but where closest points change their feature.
+/// Triangles without area fill the last four. The same bits for any `lanes`.
+SignedDistance SmoothMeshDistance(std::span<const TriangleQuad> mesh, const Vec3& p, double epsilon,
                                   double width, LaneWidth lanes = FastestLanes());
 
 /// Axis-aligned box of a mesh's vertices, to leave out what is far.

@@ -15,7 +15,7 @@
 #include "core/geometry/rotation.h"
 #include "core/geometry/small_solve.h"
 #include "core/geometry/smooth.h"
-#include "core/geometry/triangle_pair.h"
+#include "core/geometry/triangle_quad.h"
 
 namespace ego {
 namespace {
@@ -53,37 +53,53 @@ TEST(ClosestOnTriangle, IsNoFartherThanAnySampledPoint) {
   }
 }
 
-TEST(TrianglePair, AgreesWithEachTriangleAlone) {
+TriangleQuad QuadOf(std::span<const Triangle> triangles) {
+  QuadVectors a;
+  QuadVectors b;
+  QuadVectors c;
+  for (std::size_t k = 0; k < std::min<std::size_t>(4, triangles.size()); ++k) {
+    a.Set(k, triangles[k].a);
+    b.Set(k, triangles[k].b);
+    c.Set(k, triangles[k].c);
+  }
+  return MakeTriangleQuad(a, b, c);
+}
+
+TEST(TriangleQuad, AgreesWithEachTriangleAlone) {
   Random random;
   for (int trial = 0; trial < 2000; ++trial) {
-    const std::array<Vec3, 3> one = {random.Vector(), random.Vector(), random.Vector()};
-    const std::array<Vec3, 3> two = {random.Vector(), random.Vector(), random.Vector()};
-    const TrianglePair pair =
-        MakeTrianglePair(Pair(one[0], two[0]), Pair(one[1], two[1]), Pair(one[2], two[2]));
+    std::array<Triangle, 4> alone;
+    for (Triangle& t : alone) t = Triangle::Of(random.Vector(), random.Vector(), random.Vector());
+    const TriangleQuad quad = QuadOf(alone);
     const Vec3 p = 3.0 * random.Vector();
-    const ClosestLanes<Lanes> closest = ClosestOnTriangles(pair, Splat(p));
-    for (std::size_t lane = 0; lane < kLaneCount<Lanes>; ++lane) {
-      const auto& corner = lane == 0 ? one : two;
-      const Triangle triangle = Triangle::Of(corner[0], corner[1], corner[2]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Triangle& triangle = alone[k];
       const Vec3 weight = ClosestOnTriangle(triangle, p);
       const Vec3 away = p - AtBarycentric(triangle, weight);
-      EXPECT_LT(glm::distance(closest.away.At(lane), away), 1e-11);
-      EXPECT_NEAR(closest.b[lane], weight.y, 1e-10);
-      EXPECT_NEAR(closest.c[lane], weight.z, 1e-10);
-      EXPECT_LT(glm::distance(pair.normal.At(lane), triangle.normal), 1e-12);
-      EXPECT_NEAR(pair.area[lane], triangle.area, 1e-15);
+      const std::size_t first = k / 2 * 2;
+      for (const auto& [found, lane] :
+           {std::pair(ClosestOnTriangles(Load<Lanes>(quad, first), Splat<Lanes>(p)), k - first),
+            std::pair(ClosestOnTriangles(Splat<Lanes>(quad, k), Splat<Lanes>(p)), 1 - k % 2)}) {
+        EXPECT_LT(glm::distance(found.away.At(lane), away), 1e-11);
+        EXPECT_NEAR(found.b[lane], weight.y, 1e-10);
+        EXPECT_NEAR(found.c[lane], weight.z, 1e-10);
+      }
+      EXPECT_LT(glm::distance(quad.normal.At(k), triangle.normal), 1e-12);
+      EXPECT_NEAR(quad.area[k], triangle.area, 1e-15);
     }
   }
 }
 
-TEST(TrianglePair, HasAnAnswerWithoutArea) {
-  const Lanes3 point = Splat(Vec3{1.0});
-  const TrianglePair none = MakeTrianglePair(point, point, point);
-  EXPECT_EQ(ClosestOnTriangles(none, Splat(Vec3{5.0})).away.At(0), Vec3(4.0));
-  const TrianglePair line =
-      MakeTrianglePair(Splat(Vec3{0, 0, 0}), Splat(Vec3{1, 0, 0}), Splat(Vec3{2, 0, 0}));
-  EXPECT_EQ(ClosestOnTriangles(line, Splat(Vec3{1.5, 1, 0})).away.At(1), Vec3(0, 1, 0));
-  EXPECT_EQ(line.normal.At(0), Vec3(0.0));
+TEST(TriangleQuad, HasAnAnswerWithoutArea) {
+  const Triangle point = Triangle::Of(Vec3{1.0}, Vec3{1.0}, Vec3{1.0});
+  const Triangle line = Triangle::Of({0, 0, 0}, {1, 0, 0}, {2, 0, 0});
+  const TriangleQuad quad = QuadOf(std::array{point, line, point, line});
+  const auto away = [&](const Vec3& p, std::size_t lane) {
+    return ClosestOnTriangles(Load<Lanes>(quad, 0), Splat<Lanes>(p)).away.At(lane);
+  };
+  EXPECT_EQ(away(Vec3{5.0}, 0), Vec3(4.0));
+  EXPECT_EQ(away({1.5, 1, 0}, 1), Vec3(0, 1, 0));
+  EXPECT_EQ(quad.normal.At(1), Vec3(0.0));
 }
 
 TEST(ClosestOnTriangle, HasAnAnswerWithoutArea) {
@@ -171,21 +187,27 @@ TEST(NormalEquations, SolveWhatTheyAreGiven) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(x[k], truth[k], 1e-9);
 }
 
+/// Trunk (or head) of the template as it stands.
+std::vector<Triangle> MeshOf(const Body& body, std::size_t first, std::size_t end) {
+  std::vector<Triangle> mesh;
+  for (std::size_t t = first; t < end; ++t) {
+    const SampleTriangle& s = SampleTriangles()[t];
+    const auto corner = [&](std::size_t k) { return body.surface.sample_ms[Index(s[k])]; };
+    mesh.push_back(Triangle::Of(corner(0), corner(1), corner(2)));
+  }
+  return mesh;
+}
+
+std::vector<TriangleQuad> QuadsOf(std::span<const Triangle> mesh) {
+  std::vector<TriangleQuad> quads;
+  for (std::size_t t = 0; t < mesh.size(); t += 4) quads.push_back(QuadOf(mesh.subspan(t)));
+  return quads;
+}
+
 TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
   const Body body = TemplateBody();
-  std::vector<Triangle> trunk;
-  std::vector<TrianglePair> pairs;
-  for (std::size_t t = 0; t < kTrunkTriangleCount; t += 2) {
-    const auto corner = [&](std::size_t triangle, std::size_t k) -> const Vec3& {
-      return body.surface.sample_ms[Index(SampleTriangles()[triangle][k])];
-    };
-    for (const std::size_t one : {t, t + 1}) {
-      trunk.push_back(Triangle::Of(corner(one, 0), corner(one, 1), corner(one, 2)));
-    }
-    pairs.push_back(MakeTrianglePair(Pair(corner(t, 0), corner(t + 1, 0)),
-                                     Pair(corner(t, 1), corner(t + 1, 1)),
-                                     Pair(corner(t, 2), corner(t + 1, 2))));
-  }
+  const std::vector<Triangle> trunk = MeshOf(body, 0, kTrunkTriangleCount);
+  const std::vector<TriangleQuad> quads = QuadsOf(trunk);
   const Box box = Box::Of(std::span<const Vec3>(body.surface.sample_ms).first(kTrunkSampleCount));
   for (const Triangle& t : trunk) {
     const Vec3 middle = (t.a + t.b + t.c) / 3.0;
@@ -196,10 +218,10 @@ TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
         nearest =
             std::min(nearest, glm::distance(p, AtBarycentric(other, ClosestOnTriangle(other, p))));
       }
-      const SignedDistance d = SmoothMeshDistance(pairs, p, 0.009, 0.16);
+      const SignedDistance d = SmoothMeshDistance(quads, p, 0.009, 0.16);
       EXPECT_EQ(d.distance > 0.0, offset > 0.0);
-      for (const std::size_t count : {pairs.size(), pairs.size() - 1, std::size_t{1}}) {
-        const std::span<const TrianglePair> part = std::span(pairs).first(count);
+      for (const std::size_t count : {quads.size(), std::size_t{3}, std::size_t{1}}) {
+        const std::span<const TriangleQuad> part = std::span(quads).first(count);
         const SignedDistance two = SmoothMeshDistance(part, p, 0.009, 0.16, LaneWidth::kTwo);
         const SignedDistance fastest = SmoothMeshDistance(part, p, 0.009, 0.16, FastestLanes());
         EXPECT_EQ(two.distance, fastest.distance);
@@ -211,6 +233,38 @@ TEST(SmoothMeshDistance, HasTheSignAndNearlyTheDistanceOfTheMesh) {
     }
   }
   EXPECT_EQ(SmoothMeshDistance({}, {0, 0, 0}, 0.01, 0.2).gradient, Vec3(0.0));
+}
+
+/// The definition in mesh_distance.h written out, without leaving anything out.
+TEST(SmoothMeshDistance, IsTheWeightedMeanOfItsDefinition) {
+  const Body body = TemplateBody();
+  std::vector<Triangle> head = MeshOf(body, kTrunkTriangleCount, kTriangleCount);
+  head.pop_back();  // the last four are not full
+  const std::vector<TriangleQuad> quads = QuadsOf(head);
+  constexpr double kEpsilon = 0.009;
+  constexpr double kWidth = 0.08;
+  for (const Triangle& t : head) {
+    for (const double offset : {-0.02, 0.003, 0.03, 0.12}) {
+      const Vec3 p = (t.a + t.b + t.c) / 3.0 + offset * t.normal;
+      double weights = 0.0;
+      double planes = 0.0;
+      double squares = 0.0;
+      for (const Triangle& other : head) {
+        const double q = glm::length(p - AtBarycentric(other, ClosestOnTriangle(other, p)));
+        const double weight =
+            other.area * std::pow(kEpsilon * kEpsilon / (q * q + kEpsilon * kEpsilon), 4.0);
+        weights += weight;
+        planes += weight * glm::dot(other.normal, p - other.a);
+        squares += weight * q * q;
+      }
+      const double plane = planes / weights;
+      const double away = std::sqrt(squares / weights);
+      const double outside = 1.0 - (1.0 - Smoothstep(plane / (2.0 * kEpsilon))) *
+                                       (1.0 - Smoothstep(away / kWidth - 1.0));
+      const SignedDistance d = SmoothMeshDistance(quads, p, kEpsilon, kWidth);
+      EXPECT_NEAR(d.distance, glm::mix(plane, away, outside), 2e-5);
+    }
+  }
 }
 
 }  // namespace
