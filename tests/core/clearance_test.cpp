@@ -95,7 +95,7 @@ TEST(MeasureClearance, IsTheDistanceBetweenSphereAndCapsule) {
           if (distance >= 0.0) {
             EXPECT_EQ(found.trust, 1.0);
           } else {
-            EXPECT_LE(found.trust, 1.0);
+            EXPECT_LE(found.trust, 1.0 + 1e-12);
             EXPECT_GE(found.trust, 0.0);
           }
         }
