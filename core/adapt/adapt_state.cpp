@@ -30,6 +30,12 @@ AdaptState::AdaptState(const Body& body, const EgocentricPose& coordinates,
   PlaceBody(avatar, constants, pose, posed);
   ReadLimbs();
   MeasureCapsuleReach(*this);
+  for (const Limb l : kLimbs) joint_target[Index(l)] = MakeJointTargets(*this, l);
+  for (const Limb leg : {Limb::kLeftLeg, Limb::kRightLeg}) {
+    standing_place[IsLeft(leg) ? 0 : 1] =
+        StandingPlace(avatar, constants, leg, egocentric.rotation_ws[Index(JointsOf(leg).end)],
+                      egocentric.rotation_ws[0]);
+  }
   for (const Limb l : kLimbs) {
     extremity_ws[Index(l)] = posed.pose.Rotation(JointsOf(l).end);
     const PointCoordinates& mid = egocentric.point[Index(MidPoint(l))];

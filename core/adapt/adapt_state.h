@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/adapt/adapt_settings.h"
+#include "core/adapt/joint_target.h"
 #include "core/adapt/limb_ik.h"
 #include "core/egocentric/egocentric_pose.h"
 #include "core/egocentric/posed_body.h"
@@ -36,7 +37,11 @@ struct AdaptState {
   /// Length of every displacement from a capsule on this body (equation 5 reversed): the six of
   /// the other limbs by slot, then the other hand.
   std::array<std::array<double, kOtherSegmentCount + 1>, kLimbPointCount> capsule_reach{};
-  /// The same for equation 3: what trunk and head ask of the normals of hands and feet.
+  /// Equation 2 of every limb's mid and end joint.
+  std::array<std::array<JointTarget, 2>, kLimbCount> joint_target;
+  /// Where the middle of each sole is from the root's ground point in standing (`StandingPlace`).
+  std::array<Vec2, 2> standing_place{};
+  /// Equation 3: what trunk and head ask of the normals of hands and feet.
   std::array<Vec3, kLimbCount> normal_sum{};
   /// World rotations that hands and feet are to end with.
   std::array<Quat, kLimbCount> extremity_ws;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/adapt/half_space.h"
+#include "core/adapt/joint_target.h"
 #include "core/geometry/rotation.h"
 
 namespace ego {
@@ -84,96 +85,6 @@ Lanes3 MeshSum(const AdaptState& state, std::size_t group, std::size_t first,
          displacement.z * Splat(hips[2]);
 }
 
-/// A wanted position that depends on the partner's end joint: constant + on_partner * partner.
-struct LinearTarget {
-  Vec3 constant{0.0};
-  double on_partner = 0.0;
-};
-
-/// Equation 2 of one point, with the partner's end joint left open.
-LinearTarget LinearTargetOf(const AdaptState& state, LimbPoint j) {
-  const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
-  const Limb limb = LimbOf(j);
-  const Limb partner = Mirror(limb);
-  LinearTarget target{state.body_sum[Index(j)].position, 0.0};
-  for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
-    const CapsuleRelation& relation = coordinates.capsule[slot];
-    if (relation.importance == 0.0) continue;
-    const LimbSegment other = OtherSegment(limb, slot);
-    const PosedCapsule& capsule = state.posed.capsule[Index(other)];
-    target.constant += relation.importance *
-                       DenormalizeCapsule(relation, capsule, state.capsule_reach[Index(j)][slot]);
-    if (LimbOf(other) == partner && IsLower(other)) {
-      const double share = relation.importance * relation.axial;
-      target.on_partner += share;
-      target.constant -= share * capsule.end;
-    }
-  }
-  if (coordinates.hand.importance > 0.0) {
-    const PosedCapsule& hand = state.posed.hand[Index(partner)];
-    target.constant += coordinates.hand.importance *
-                       (DenormalizeCapsule(coordinates.hand, hand,
-                                           state.capsule_reach[Index(j)][kOtherSegmentCount]) -
-                        hand.start);
-    target.on_partner += coordinates.hand.importance;
-  }
-  if (coordinates.ground.importance > 0.0) {
-    target.constant += coordinates.ground.importance * DenormalizeGround(state, limb);
-  }
-  return target;
-}
-
-/// The target of a leg's joint, drawn to where the captured joint angles put it. The ground is left
-/// to `LockStance`, which holds feet by their height alone.
-LinearTarget LegTarget(const AdaptState& state, LimbPoint j) {
-  LinearTarget target = LinearTargetOf(state, j);
-  const double gap = state.settings.leg_gap / 1.78;
-  if (!(gap > 0.0)) return target;
-  const Limb leg = LimbOf(j);
-  const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
-  double share = 1.0;
-  if (coordinates.ground.importance > 0.0) {
-    target.constant -= coordinates.ground.importance * DenormalizeGround(state, leg);
-    share -= coordinates.ground.importance;
-  }
-  const LimbChain& chain = state.chain[Index(leg)];
-  const LimbPlacement captured = Place(chain, chain.captured);
-  const double anchor = 1.0 / (gap * coordinates.importance_sum);
-  const double sum = share + anchor;
-  target.constant += anchor * (j == MidPoint(leg) ? captured.mid : captured.end);
-  return {target.constant / sum, target.on_partner / sum};
-}
-
-/// What is asked of a limb's mid joint.
-LinearTarget MidTarget(const AdaptState& state, Limb limb) {
-  return IsArm(limb) ? LinearTargetOf(state, MidPoint(limb)) : LegTarget(state, MidPoint(limb));
-}
-
-/// How much a point of a hand counts among the three: what touches decides.
-double HandWeight(const AdaptState& state, LimbPoint j) {
-  const double gap = 1.0 / state.egocentric.point[Index(j)].importance_max;
-  const double softened = 1.0 / (gap + state.settings.hand_softness / 1.78);
-  return softened * softened;
-}
-
-/// What the points of a limb's end ask of its end joint together.
-LinearTarget EndTarget(const AdaptState& state, Limb limb) {
-  if (!IsArm(limb)) return LegTarget(state, EndPoint(limb));
-  if (!state.egocentric.form.hand_points) return LinearTargetOf(state, EndPoint(limb));
-  LinearTarget mean;
-  double sum = 0.0;
-  for (const LimbPoint j : {EndPoint(limb), PalmPoint(limb), FingertipPoint(limb)}) {
-    const double weight = HandWeight(state, j);
-    const LinearTarget target = LinearTargetOf(state, j);
-    mean.constant += weight * (target.constant - HandOffset(state, j));
-    mean.on_partner += weight * target.on_partner;
-    sum += weight;
-  }
-  mean.constant /= sum;
-  mean.on_partner /= sum;
-  return mean;
-}
-
 Vec3 PartnerEnd(const AdaptState& state, Limb limb) {
   return state.posed.point[Index(EndPoint(Mirror(limb)))];
 }
@@ -222,9 +133,7 @@ Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
   if (!state.egocentric.form.sole_contact) return sole;
   const SoleOffset offset = MeasureSole(state.avatar, state.constants, leg,
                                         state.extremity_ws[Index(leg)], relation.on_ball);
-  const Vec2 standing = StandingPlace(state.avatar, state.constants, leg,
-                                      state.egocentric.rotation_ws[Index(JointsOf(leg).end)],
-                                      state.egocentric.rotation_ws[0]);
+  const Vec2& standing = state.standing_place[IsLeft(leg) ? 0 : 1];
   return sole + Vec3{standing.x, 0.0, standing.y} -
          Vec3{offset.middle.x, offset.low, offset.middle.z};
 }
@@ -270,13 +179,15 @@ void SumBody(AdaptState& state) {
 
 LimbTargets TargetsOf(const AdaptState& state, Limb limb) {
   const Vec3 partner = PartnerEnd(state, limb);
-  return {Resolve(MidTarget(state, limb), partner), Resolve(EndTarget(state, limb), partner)};
+  const std::array<LinearTarget, 2> open = Evaluate(state, limb);
+  return {Resolve(open[0], partner), Resolve(open[1], partner)};
 }
 
 std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left) {
   const std::array<Limb, 2> limb = {left, Mirror(left)};
-  std::array<LinearTarget, 2> open;
-  for (std::size_t k = 0; k < 2; ++k) open[k] = EndTarget(state, limb[k]);
+  const std::array<std::array<LinearTarget, 2>, 2> joint = {Evaluate(state, limb[0]),
+                                                            Evaluate(state, limb[1])};
+  const std::array<LinearTarget, 2> open = {joint[0][1], joint[1][1]};
   // end_k = c_k + m_k end_other, both at once. The shares are below one by what trunk, head and
   // ground have; the floor only matters for a point that touches nothing but its partner.
   const double determinant = std::max(1e-3, 1.0 - open[0].on_partner * open[1].on_partner);
@@ -295,7 +206,7 @@ std::array<LimbTargets, 2> TargetsOfPair(const AdaptState& state, Limb left) {
   std::array<LimbTargets, 2> targets;
   for (std::size_t k = 0; k < 2; ++k) {
     targets[k].end = Resolve(open[k], reached[1 - k]);
-    targets[k].mid = Resolve(MidTarget(state, limb[k]), reached[1 - k]);
+    targets[k].mid = Resolve(joint[k][0], reached[1 - k]);
   }
   return targets;
 }
