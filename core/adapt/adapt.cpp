@@ -18,35 +18,41 @@ constexpr std::array<Limb, 2> kLegs = {Limb::kLeftLeg, Limb::kRightLeg};
 /// Section 6.1, after the captured joint angles: arms that need not fight their way out of the
 /// legs.
 void InitializeArms(AdaptState& state) {
-  std::array<LimbPosture, 2> posture;
-  for (const Limb arm : kArms) {
+  const auto task = [&](Limb arm) -> LimbTask {
     const LimbTargets targets = InitialTargets(state, arm);
-    posture[Index(arm)] = BlendedIk(state.chain[Index(arm)], state.limb[Index(arm)], targets.mid,
-                                    targets.end, state.gamma[Index(arm)]);
-  }
+    return {&state.chain[Index(arm)], state.limb[Index(arm)], targets.mid, targets.end,
+            state.gamma[Index(arm)]};
+  };
+  const std::array<LimbPosture, 2> posture = BlendedIk({task(kArms[0]), task(kArms[1])});
   for (const Limb arm : kArms) state.Apply(arm, posture[Index(arm)]);
 }
 
-/// One limb: attraction towards the targets in proportion to w (figure 13), limb IK (section 6.2),
-/// spatial order (section 6.3).
-LimbPosture AdaptLimb(const AdaptState& state, Limb limb, const LimbTargets& targets, double w,
-                      bool with_planes) {
+/// The limb IK of one limb (section 6.2): attraction towards the targets in proportion to w (figure
+/// 13).
+LimbTask TaskOf(const AdaptState& state, Limb limb, const LimbTargets& targets, double w) {
   const LimbChain& chain = state.chain[Index(limb)];
   const LimbPosture& posture = state.limb[Index(limb)];
   const LimbJoints joints = JointsOf(limb);
-  const LimbPosture& start = state.settings.start_from_captured ? chain.captured : posture;
-  const LimbPosture attracted = BlendedIk(
-      chain, start, glm::mix(state.posed.pose.Position(joints.mid), targets.mid, w),
-      glm::mix(state.posed.pose.Position(joints.end), targets.end, w), state.gamma[Index(limb)]);
-  return with_planes ? EnsureSpatialOrder(state, limb, attracted, w) : attracted;
+  return {&chain, state.settings.start_from_captured ? chain.captured : posture,
+          glm::mix(state.posed.pose.Position(joints.mid), targets.mid, w),
+          glm::mix(state.posed.pose.Position(joints.end), targets.end, w),
+          state.gamma[Index(limb)]};
+}
+
+/// One limb alone: limb IK, then spatial order (section 6.3).
+void AdaptLimb(AdaptState& state, Limb limb, double w, bool with_planes) {
+  const LimbTask task = TaskOf(state, limb, TargetsOf(state, limb), w);
+  const LimbPosture attracted = BlendedIk({task, task})[0];
+  state.Apply(limb, with_planes ? EnsureSpatialOrder(state, limb, attracted, w) : attracted);
 }
 
 /// Both limbs of a pair from one state of the body, so that neither side is first.
 void AdaptPair(AdaptState& state, const std::array<Limb, 2>& pair, double w, bool with_planes) {
   const std::array<LimbTargets, 2> targets = TargetsOfPair(state, pair[0]);
-  std::array<LimbPosture, 2> posture;
-  for (std::size_t k = 0; k < 2; ++k) {
-    posture[k] = AdaptLimb(state, pair[k], targets[k], w, with_planes);
+  std::array<LimbPosture, 2> posture =
+      BlendedIk({TaskOf(state, pair[0], targets[0], w), TaskOf(state, pair[1], targets[1], w)});
+  for (std::size_t k = 0; with_planes && k < 2; ++k) {
+    posture[k] = EnsureSpatialOrder(state, pair[k], posture[k], w);
   }
   for (std::size_t k = 0; k < 2; ++k) state.Apply(pair[k], posture[k]);
 }
@@ -64,9 +70,7 @@ void AlignExtremities(AdaptState& state, const std::array<Limb, 2>& pair,
 void AdaptLimbs(AdaptState& state, double w, bool with_planes,
                 const std::array<Quat, kLimbCount>& captured_ws) {
   if (!state.settings.solve_pairs) {
-    for (const Limb limb : kLimbs) {
-      state.Apply(limb, AdaptLimb(state, limb, TargetsOf(state, limb), w, with_planes));
-    }
+    for (const Limb limb : kLimbs) AdaptLimb(state, limb, w, with_planes);
     return;
   }
   for (const auto& pair : {kLegs, kArms}) {

@@ -4,73 +4,288 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/lane_math.h"
 #include "core/geometry/rotation.h"
-#include "core/geometry/smooth.h"
+
+// Both limbs of a pair are solved side by side; a limb alone is a pair with itself.
 
 namespace ego {
 namespace {
+
+using V = Lanes;
+using V3 = Lanes3;
+using Q = LaneQuats<Lanes>;
+using Mask = LaneMask<Lanes>;
 
 /// People reach 167 degrees; bones do not fold further.
 constexpr double kMaxFlexion = Radians(172.0);
 /// How far the canonical hinge pulls the flexion axis, as a sine: it rules below 20 degrees.
 constexpr double kHingeWeight = 0.35;
 
-/// Fades a direction out where what defines it is shorter than `scale`.
-double Trust(double length, double scale) {
-  const double l2 = length * length;
-  return l2 / (l2 + scale * scale);
+V Pair(double a, double b) { return V{a, b}; }
+Mask Pair(bool a, bool b) { return Mask{a ? -1 : 0, b ? -1 : 0}; }
+
+/// A chain in each lane; see LimbChain.
+struct Chains {
+  Chains(const LimbChain& a, const LimbChain& b)
+      : of{&a, &b},
+        base_ws(ego::Pair(a.base_ws, b.base_ws)),
+        frame_ws(ego::Pair(a.frame_ws, b.frame_ws)),
+        upper_ls(ego::Pair(a.upper_ls, b.upper_ls)),
+        lower_ls(ego::Pair(a.lower_ls, b.lower_ls)),
+        upper_unit(ego::Pair(a.upper_unit, b.upper_unit)),
+        lower_unit(ego::Pair(a.lower_unit, b.lower_unit)),
+        upper_length(Pair(a.upper_length, b.upper_length)),
+        lower_length(Pair(a.lower_length, b.lower_length)),
+        reach(upper_length + lower_length),
+        hinge_ls(ego::Pair(a.hinge_ls, b.hinge_ls)),
+        hinge_across(ego::Pair(a.hinge_across, b.hinge_across)),
+        has_bones(Pair(a.has_bones, b.has_bones)),
+        base_locked(Pair(a.base_locked, b.base_locked)),
+        mid_locked(Pair(a.mid_locked, b.mid_locked)),
+        captured_deficit(Pair(a.captured_deficit, b.captured_deficit)),
+        captured_flexion(Pair(a.captured_flexion, b.captured_flexion)),
+        reach_softness(Pair(a.reach_softness, b.reach_softness)),
+        swivel_share(Pair(a.swivel_share, b.swivel_share)) {}
+
+  std::array<const LimbChain*, 2> of;
+  V3 base_ws;
+  Q frame_ws;
+  V3 upper_ls;
+  V3 lower_ls;
+  V3 upper_unit;
+  V3 lower_unit;
+  V upper_length;
+  V lower_length;
+  V reach;
+  V3 hinge_ls;
+  V3 hinge_across;
+  Mask has_bones;
+  Mask base_locked;
+  Mask mid_locked;
+  V captured_deficit;
+  V captured_flexion;
+  V reach_softness;
+  V swivel_share;
+};
+
+struct Postures {
+  Q base;
+  Q mid;
+
+  Postures(const LimbPosture& a, const LimbPosture& b)
+      : base(ego::Pair(a.base, b.base)), mid(ego::Pair(a.mid, b.mid)) {}
+  LimbPosture At(std::size_t lane) const { return {base.At(lane), mid.At(lane)}; }
+};
+
+struct Placements {
+  Q base_ws;
+  V3 mid;
+  V3 end;
+};
+
+Placements Place(const Chains& chain, const Postures& posture) {
+  Placements placed;
+  placed.base_ws = chain.frame_ws * posture.base;
+  placed.mid = chain.base_ws + placed.base_ws * chain.upper_ls;
+  placed.end = placed.mid + placed.base_ws * (posture.mid * chain.lower_ls);
+  return placed;
+}
+
+/// See Flexion.
+struct Flexions {
+  V3 axis_ls;
+  V angle;
+  V in_plane;
+};
+
+Flexions MeasureFlexion(const Chains& chain, const Q& mid) {
+  const V3 lower = mid * chain.lower_unit;
+  const V3 normal = Cross(chain.upper_unit, lower);
+  const V3 axis = UnitOr<V>(normal + Splat(kHingeWeight) * chain.hinge_across, chain.hinge_across);
+  const V along = Dot(chain.upper_unit, lower);
+  const V across = Dot(axis, normal);
+  return {Select<V>(chain.has_bones, axis, chain.hinge_ls),
+          Masked<V>(chain.has_bones, Atan2<V>(across, along)),
+          Select<V>(chain.has_bones, Sqrt<V>(along * along + across * across), Splat(1.0))};
+}
+
+/// Fades a direction out where what defines it is shorter than `scale`; `square` of its length.
+V Trust(const V& square, const V& scale) { return square / (square + scale * scale); }
+
+/// 1, but near 0, below `least` away from it, less.
+V NearTrust(const V& distance, const V& least) {
+  const Mask far = distance > least;
+  return Select<V>(far, Splat(1.0), Smoothstep<V>(distance / Select<V>(far, Splat(1.0), least)));
 }
 
 /// The signed angle to flex to for an unsigned `required` one. A limb that was captured
 /// over-stretched stays on that side while no more bend is asked than it had, and turns to flexing
 /// the right way round within some ten degrees beyond; continuous also where the captured angle
 /// passes through zero.
-double Signed(double required, double captured) {
-  if (captured >= 0.0) return required;
-  if (required <= -captured) return -required;
-  const double beyond = (required + captured) / Radians(10.0);
-  return required + 2.0 * captured / (1.0 + beyond * beyond);
+V Signed(const V& required, const V& captured) {
+  const V beyond = (required + captured) / Splat(Radians(10.0));
+  const V turning = required + Splat(2.0) * captured / (Splat(1.0) + beyond * beyond);
+  return Select<V>(captured >= V{}, required, Select<V>(required <= -captured, -required, turning));
 }
 
 /// Mid rotation, of which `flexion` is measured, with the angle between the bones brought to
 /// `cosine`.
-Quat FlexTo(const LimbChain& chain, const Quat& mid, const Flexion& flexion, double cosine) {
-  if (chain.mid_locked || !chain.has_bones) return mid;
-  if (flexion.in_plane < 1e-6) return mid;  // the lower bone lies along the hinge: nothing turns it
-  const double limit = std::max(kMaxFlexion, chain.captured_flexion);
-  const double required =
-      std::min(limit, std::acos(std::clamp(cosine / flexion.in_plane, -1.0, 1.0)));
-  const double angle = Signed(required, chain.captured_flexion);
-  return glm::normalize(glm::angleAxis(angle - flexion.angle, flexion.axis_ls) * mid);
+Q FlexTo(const Chains& chain, const Q& mid, const Flexions& flexion, const V& cosine) {
+  const V one = Splat(1.0);
+  // Where the lower bone lies along the hinge nothing turns it.
+  const Mask can_turn = ~chain.mid_locked & chain.has_bones & (flexion.in_plane >= Splat(1e-6));
+  const V limit = Max<V>(Splat(kMaxFlexion), chain.captured_flexion);
+  const V bounded = Min<V>(one, Max<V>(-one, cosine / Select<V>(can_turn, flexion.in_plane, one)));
+  const V required = Min<V>(limit, Acos<V>(bounded));
+  const V angle = Signed(required, chain.captured_flexion);
+  return Select<V>(can_turn, Normalized(AngleAxis<V>(angle - flexion.angle, flexion.axis_ls) * mid),
+                   mid);
 }
 
 /// Chord deficit 1 - cos(flexion) that is used when `wanted` would put the end in place. Soft where
 /// the limb gets straight, and exact where the captured limb already has it.
-double SoftDeficit(const LimbChain& chain, double wanted) {
-  const double c = chain.reach_softness;
-  if (!(c > 0.0)) return std::max(0.0, wanted);
-  const auto soft = [c](double x) { return 0.5 * (x + std::sqrt(x * x + 4.0 * c * c)); };
-  const double away = (wanted - chain.captured_deficit) / c;
-  const double exact =
-      (chain.captured_deficit - soft(chain.captured_deficit)) / (1.0 + away * away);
-  return std::max(0.0, soft(wanted) + exact);
+V SoftDeficit(const Chains& chain, const V& wanted) {
+  const V& c = chain.reach_softness;
+  const V half = Splat(0.5);
+  const Mask is_soft = c > V{};
+  const V four_square = Splat(4.0) * c * c;
+  const auto soft = [&](const V& x) { return half * (x + Sqrt<V>(x * x + four_square)); };
+  const V away = (wanted - chain.captured_deficit) / Select<V>(is_soft, c, Splat(1.0));
+  const V exact =
+      (chain.captured_deficit - soft(chain.captured_deficit)) / (Splat(1.0) + away * away);
+  return Max<V>(V{}, Select<V>(is_soft, soft(wanted) + exact, wanted));
+}
+
+/// The smallest rotations that take `from` to `to` (unit); see `SmallestRotation`.
+Q SmallestTurn(const V3& from, const V3& to, const Q& base_ws, const V3& hinge_ls) {
+  const V cosine = Dot(from, to);
+  const V3 axis = Cross(from, to);
+  const V one = Splat(1.0);
+  const Mask opposite = cosine <= Splat(-1.0 + 1e-9);
+  Q turn = Normalized(Q{Select<V>(opposite, one, one + cosine), axis.x, axis.y, axis.z});
+  if (Any<V>(opposite)) {
+    const V3 hinge = base_ws * hinge_ls;
+    const auto one_of = [&](std::size_t k) {
+      return SmallestRotation(from.At(k), to.At(k), hinge.At(k));
+    };
+    turn = Select<V>(opposite, ego::Pair(one_of(0), one_of(1)), turn);
+  }
+  return turn;
 }
 
 /// Turns the whole limb by the smallest rotation that brings `from` to `to` (unit), as far as
 /// `trust` says.
-Quat TurnBase(const LimbChain& chain, const Quat& base, const Vec3& from, const Vec3& to,
-              double trust) {
-  if (chain.base_locked) return base;
-  const Quat base_ws = chain.frame_ws * base;
-  const Quat turn = SmallestRotation(from, to, base_ws * chain.hinge_ls);
-  const Quat part = trust >= 1.0 ? turn : Slerp(kIdentity, turn, trust);
-  return glm::normalize(glm::conjugate(chain.frame_ws) * part * base_ws);
+Q TurnBase(const Chains& chain, const Q& base, const V3& from, const V3& to, const V& trust) {
+  const Q base_ws = chain.frame_ws * base;
+  Q turn = SmallestTurn(from, to, base_ws, chain.hinge_ls);
+  const Mask in_part = trust < Splat(1.0);
+  if (Any<V>(in_part)) {
+    const Q part = Slerp<V>(ego::Pair(kIdentity, kIdentity), turn, trust);
+    turn = Select<V>(in_part, part, turn);
+  }
+  return Select<V>(chain.base_locked, base,
+                   Normalized(Conjugate(chain.frame_ws) * (turn * base_ws)));
 }
 
-Quat TwistBase(const LimbChain& chain, const Quat& base, const Vec3& axis_ws, double angle) {
-  if (chain.base_locked) return base;
-  return glm::normalize(glm::conjugate(chain.frame_ws) * glm::angleAxis(angle, axis_ws) *
-                        chain.frame_ws * base);
+Q TwistBase(const Chains& chain, const Q& base, const V3& axis_ws, const V& angle) {
+  return Select<V>(chain.base_locked, base,
+                   Normalized(Conjugate(chain.frame_ws) *
+                              (AngleAxis<V>(angle, axis_ws) * (chain.frame_ws * base))));
+}
+
+/// See `ego::BoundTwist`.
+V BoundTwist(const V& angle, const V& flexion) {
+  const V magnitude = Abs<V>(angle);
+  return CopySign<V>(SoftMin<V>(magnitude, Abs<V>(flexion), Max<V>(V{}, Splat(kPi) - magnitude)),
+                     angle);
+}
+
+/// Angles from `from` to `to`, both at right angles to the unit `axis`.
+V AngleAround(const V3& axis, const V3& from, const V3& to) {
+  return Atan2<V>(Dot(axis, Cross(from, to)), Dot(from, to));
+}
+
+/// `flexion` is that of the posture.
+Postures ReachEnd(const Chains& chain, const Postures& posture, const Flexions& flexion,
+                  const V3& end_target) {
+  const V one = Splat(1.0);
+  Postures reached = posture;
+  const V3 to_target = end_target - chain.base_ws;
+  const V distance = Sqrt<V>(Dot(to_target, to_target));
+  // distance^2 = (upper + lower)^2 - 2 upper lower (1 - cos)
+  const V deficit =
+      (chain.reach - distance) * (chain.reach + distance) /
+      Select<V>(chain.has_bones, Splat(2.0) * chain.upper_length * chain.lower_length, one);
+  reached.mid = FlexTo(chain, posture.mid, flexion, one - SoftDeficit(chain, deficit));
+  const V3 chord = Place(chain, reached).end - chain.base_ws;
+  const V length = Sqrt<V>(Dot(chord, chord));
+  const Mask has_both = (length >= Splat(1e-9)) & (distance >= Splat(1e-9));
+  const V3 from = (one / Select<V>(has_both, length, one)) * chord;
+  const V3 to = (one / Select<V>(has_both, distance, one)) * to_target;
+  const Q base =
+      TurnBase(chain, reached.base, from, to, NearTrust(distance, Splat(0.1) * chain.reach));
+  reached.base = Select<V>(has_both, base, reached.base);
+  return reached;
+}
+
+Postures StandardIk(const Chains& chain, const Postures& posture, const Flexions& flexion,
+                    const V3& mid_target, const V3& end_target) {
+  Postures reached = ReachEnd(chain, posture, flexion, end_target);
+  const Placements placed = Place(chain, reached);
+  const V3 chord = placed.end - chain.base_ws;
+  const V length = Sqrt<V>(Dot(chord, chord));
+  const Mask has_chord = length >= Splat(1e-9);
+  const V3 axis = (Splat(1.0) / Select<V>(has_chord, length, Splat(1.0))) * chord;
+  const V3 mid = Perpendicular<V>(placed.mid - chain.base_ws, axis);
+  const V3 wanted = Perpendicular<V>(mid_target - chain.base_ws, axis);
+  const V trust = Trust(Dot(wanted, wanted), Splat(0.1) * chain.reach);
+  const V bound =
+      BoundTwist(AngleAround(axis, mid, wanted), MeasureFlexion(chain, reached.mid).angle);
+  const Q base = TwistBase(chain, reached.base, axis, chain.swivel_share * trust * bound);
+  reached.base = Select<V>(has_chord, base, reached.base);
+  return reached;
+}
+
+Postures ReversedIk(const Chains& chain, const Postures& posture, const Flexions& flexion,
+                    const V3& mid_target, const V3& end_target) {
+  const V one = Splat(1.0);
+  Postures reached = posture;
+  const V3 to_mid = mid_target - chain.base_ws;
+  const V distance = Sqrt<V>(Dot(to_mid, to_mid));
+  const Mask has_mid = distance > Splat(1e-9);
+  const V3 upper_now = chain.frame_ws * (reached.base * chain.upper_unit);
+  const V3 to = (one / Select<V>(has_mid, distance, one)) * to_mid;
+  reached.base = Select<V>(has_mid,
+                           TurnBase(chain, reached.base, upper_now, to,
+                                    NearTrust(distance, Splat(0.2) * chain.upper_length)),
+                           reached.base);
+
+  const Placements placed = Place(chain, reached);
+  const V3 upper = UnitOr<V>(placed.mid - chain.base_ws, chain.upper_unit);
+  const V3 lower = UnitOr<V>(placed.end - placed.mid, chain.lower_unit);
+  const V3 to_end = end_target - placed.mid;
+  const V end_distance = Sqrt<V>(Dot(to_end, to_end));
+  const Mask has_end = end_distance >= Splat(1e-9);
+  const V3 wanted = (one / Select<V>(has_end, end_distance, one)) * to_end;
+  // The bound is zero where the twist changes sides; what it is multiplied by stays outside.
+  const V3 across = Perpendicular<V>(to_end, upper);
+  const V twist =
+      Trust(Dot(across, across), Splat(0.05) * chain.reach) *
+      BoundTwist(AngleAround(upper, Perpendicular<V>(lower, upper), across), flexion.angle);
+  const Q base = TwistBase(chain, reached.base, upper, twist);
+
+  const V now = Dot(upper, lower);
+  const V trust = NearTrust(end_distance, Splat(0.1) * chain.lower_length);
+  const Q mid = FlexTo(chain, reached.mid, flexion, now + trust * (Dot(upper, wanted) - now));
+  reached.base = Select<V>(has_end, base, reached.base);
+  reached.mid = Select<V>(has_end, mid, reached.mid);
+  if (Any<V>(~chain.has_bones)) {
+    const Postures without = ReachEnd(chain, posture, flexion, end_target);
+    reached.base = Select<V>(chain.has_bones, reached.base, without.base);
+    reached.mid = Select<V>(chain.has_bones, reached.mid, without.mid);
+  }
+  return reached;
 }
 
 }  // namespace
@@ -128,91 +343,56 @@ Flexion MeasureFlexion(const LimbChain& chain, const Quat& mid) {
 }
 
 double BoundTwist(double angle, double flexion) {
-  const double magnitude = std::abs(angle);
-  return std::copysign(SoftMin(magnitude, std::abs(flexion), std::max(0.0, kPi - magnitude)),
-                       angle);
+  return BoundTwist(Splat(angle), Splat(flexion))[0];
 }
 
 LimbPosture ReachEnd(const LimbChain& chain, const LimbPosture& posture, const Vec3& end_target) {
-  LimbPosture reached = posture;
-  const Vec3 to_target = end_target - chain.base_ws;
-  const double distance = glm::length(to_target);
-  if (chain.has_bones) {
-    const double upper = chain.upper_length;
-    const double lower = chain.lower_length;
-    // distance^2 = (upper + lower)^2 - 2 upper lower (1 - cos)
-    const double reach = upper + lower;
-    const double deficit = (reach - distance) * (reach + distance) / (2.0 * upper * lower);
-    reached.mid = FlexTo(chain, posture.mid, MeasureFlexion(chain, posture.mid),
-                         1.0 - SoftDeficit(chain, deficit));
-  }
-  const Vec3 chord = Place(chain, reached).end - chain.base_ws;
-  const double length = glm::length(chord);
-  if (length < 1e-9 || distance < 1e-9) return reached;
-  const double trust =
-      distance > 0.1 * chain.Reach() ? 1.0 : Smoothstep(distance / (0.1 * chain.Reach()));
-  reached.base = TurnBase(chain, reached.base, chord / length, to_target / distance, trust);
-  return reached;
+  const Chains chains(chain, chain);
+  const Postures postures(posture, posture);
+  return ReachEnd(chains, postures, MeasureFlexion(chains, postures.mid), Splat(end_target)).At(0);
 }
 
 LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                        const Vec3& end_target) {
-  LimbPosture reached = ReachEnd(chain, posture, end_target);
-  const LimbPlacement placed = Place(chain, reached);
-  const Vec3 chord = placed.end - chain.base_ws;
-  const double length = glm::length(chord);
-  if (length < 1e-9) return reached;
-  const Vec3 axis = chord / length;
-  const Vec3 mid = Perpendicular(placed.mid - chain.base_ws, axis);
-  const Vec3 wanted = Perpendicular(mid_target - chain.base_ws, axis);
-  const double angle = AngleAbout(axis, mid, wanted);
-  const double trust = Trust(glm::length(wanted), 0.1 * chain.Reach());
-  const double flexion = MeasureFlexion(chain, reached.mid).angle;
-  reached.base =
-      TwistBase(chain, reached.base, axis, chain.swivel_share * trust * BoundTwist(angle, flexion));
-  return reached;
+  const Chains chains(chain, chain);
+  const Postures postures(posture, posture);
+  return StandardIk(chains, postures, MeasureFlexion(chains, postures.mid), Splat(mid_target),
+                    Splat(end_target))
+      .At(0);
 }
 
 LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                        const Vec3& end_target) {
-  LimbPosture reached = posture;
-  if (!chain.has_bones) return ReachEnd(chain, posture, end_target);
-  const Vec3 to_mid = mid_target - chain.base_ws;
-  const double distance = glm::length(to_mid);
-  const Vec3 upper_now = chain.frame_ws * reached.base * chain.upper_unit;
-  if (distance > 1e-9) {
-    const double near = 0.2 * chain.upper_length;
-    reached.base = TurnBase(chain, reached.base, upper_now, to_mid / distance,
-                            distance > near ? 1.0 : Smoothstep(distance / near));
-  }
-
-  LimbPlacement placed = Place(chain, reached);
-  const Vec3 upper = glm::normalize(placed.mid - chain.base_ws);
-  const Vec3 to_end = end_target - placed.mid;
-  const double end_distance = glm::length(to_end);
-  if (end_distance < 1e-9) return reached;
-  const Vec3 wanted = to_end / end_distance;
-  const Flexion flexion = MeasureFlexion(chain, reached.mid);
-  // The bound is zero where the twist changes sides; what it is multiplied by stays outside.
-  const double twist =
-      Trust(glm::length(Perpendicular(to_end, upper)), 0.05 * chain.Reach()) *
-      BoundTwist(AngleAbout(upper, placed.end - placed.mid, wanted), flexion.angle);
-  reached.base = TwistBase(chain, reached.base, upper, twist);
-
-  const double now = glm::dot(upper, glm::normalize(placed.end - placed.mid));
-  const double cosine = glm::dot(upper, wanted);
-  const double near = 0.1 * chain.lower_length;
-  const double trust = end_distance > near ? 1.0 : Smoothstep(end_distance / near);
-  reached.mid = FlexTo(chain, reached.mid, flexion, glm::mix(now, cosine, trust));
-  return reached;
+  const Chains chains(chain, chain);
+  const Postures postures(posture, posture);
+  return ReversedIk(chains, postures, MeasureFlexion(chains, postures.mid), Splat(mid_target),
+                    Splat(end_target))
+      .At(0);
 }
 
 LimbPosture BlendedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                       const Vec3& end_target, double gamma) {
-  const LimbPosture standard = StandardIk(chain, posture, mid_target, end_target);
-  if (gamma <= 0.0) return standard;
-  const LimbPosture reversed = ReversedIk(chain, posture, mid_target, end_target);
-  return {Slerp(standard.base, reversed.base, gamma), Slerp(standard.mid, reversed.mid, gamma)};
+  const LimbTask task{&chain, posture, mid_target, end_target, gamma};
+  return BlendedIk({task, task})[0];
+}
+
+std::array<LimbPosture, 2> BlendedIk(const std::array<LimbTask, 2>& task) {
+  const LimbTask& a = task[0];
+  const LimbTask& b = task[1];
+  const Chains chain(*a.chain, *b.chain);
+  const Postures start(a.start, b.start);
+  const Flexions flexion = MeasureFlexion(chain, start.mid);
+  const V3 mid = ego::Pair(a.mid_target, b.mid_target);
+  const V3 end = ego::Pair(a.end_target, b.end_target);
+  const V gamma = Pair(a.gamma, b.gamma);
+  Postures blended = StandardIk(chain, start, flexion, mid, end);
+  const Mask in_part = gamma > V{};
+  if (Any<V>(in_part)) {
+    const Postures reversed = ReversedIk(chain, start, flexion, mid, end);
+    blended.base = Select<V>(in_part, Slerp<V>(blended.base, reversed.base, gamma), blended.base);
+    blended.mid = Select<V>(in_part, Slerp<V>(blended.mid, reversed.mid, gamma), blended.mid);
+  }
+  return {blended.At(0), blended.At(1)};
 }
 
 }  // namespace ego

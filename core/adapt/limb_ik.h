@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "core/base/math.h"
 #include "core/skeleton/skeleton.h"
 
@@ -84,6 +86,17 @@ LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const
 /// (appendix C).
 LimbPosture BlendedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                       const Vec3& end_target, double gamma);
+
+/// What one limb of a pair is to do; the members are the arguments above.
+struct LimbTask {
+  const LimbChain* chain = nullptr;
+  LimbPosture start;
+  Vec3 mid_target{0.0};
+  Vec3 end_target{0.0};
+  double gamma = 0.0;
+};
+/// Two limbs at once, each exactly as it would be alone.
+std::array<LimbPosture, 2> BlendedIk(const std::array<LimbTask, 2>& task);
 
 /// The twist that may be used of a wanted `angle` at a flexion: the least of |angle|, flexion and
 /// pi - |angle|, without a kink, signed. Zero for a straight limb and for a half turn, where the

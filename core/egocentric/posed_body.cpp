@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/lane_math.h"
 #include "core/geometry/rotation.h"
 #include "core/geometry/smooth.h"
 
@@ -53,15 +54,6 @@ struct CornerQuad {
   QuadVectors c;
 };
 using Corners = std::array<CornerQuad, kTriangleQuadCount>;
-
-/// `v` over its length, or `otherwise` where it has none.
-template <class V>
-EGO_LANES_INLINE LaneVectors<V> UnitOr(const LaneVectors<V>& v, const LaneVectors<V>& otherwise) {
-  const V one = Splat<V>(1.0);
-  const V length = Sqrt<V>(Dot(v, v));
-  const LaneMask<V> is_long = length > Splat<V>(1e-12);
-  return Select<V>(is_long, (one / Select<V>(is_long, length, one)) * v, otherwise);
-}
 
 template <class V>
 EGO_LANES_INLINE void PlaceQuad(const CornerQuad& corner, const Quad& looks_up_or_down,

@@ -39,6 +39,40 @@ TEST(LimbIk, KeepsAPostureWhoseTargetsAreReached) {
   }
 }
 
+/// Side by side with any other limb, locked or without bones, a limb ends with the same bits.
+TEST(LimbIk, DoesNotHeedThePartner) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Vec3{uniform(engine), uniform(engine), uniform(engine)}; };
+  for (int trial = 0; trial < 400; ++trial) {
+    std::array<LimbChain, 2> chain;
+    std::array<LimbTask, 2> task;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const LimbPosture posture = Bent(80.0 + 85.0 * uniform(engine));
+      chain[k] = Arm(posture, trial % 3 == 0 ? 0.0 : 0.05);
+      if (k == 1 && trial % 5 == 0) chain[k].base_locked = true;
+      if (k == 1 && trial % 7 == 0) chain[k].mid_locked = true;
+      if (k == 1 && trial % 11 == 0) {
+        chain[k] = MakeChain(Skeleton{}, Limb::kRightArm, vector(), kIdentity, posture, 0.05);
+      }
+      task[k] = {&chain[k], posture, chain[k].base_ws + vector(),
+                 chain[k].base_ws + (trial % 4 == 0 ? 0.02 : 0.7) * vector(),
+                 std::max(0.0, uniform(engine))};
+    }
+    const std::array<LimbPosture, 2> together = BlendedIk(task);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const LimbPosture alone = BlendedIk({task[k], task[k]})[1];
+      EXPECT_EQ(together[k].base, alone.base) << trial;
+      EXPECT_EQ(together[k].mid, alone.mid) << trial;
+      EXPECT_NEAR(glm::length(alone.base), 1.0, 1e-12);
+      EXPECT_NEAR(glm::length(alone.mid), 1.0, 1e-12);
+      if (chain[k].mid_locked) {
+        EXPECT_LT(AngleOf(glm::conjugate(alone.mid) * task[k].start.mid), 1e-7);
+      }
+    }
+  }
+}
+
 TEST(LimbIk, StandardReachesTheEndAndReversedTheMiddle) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
