@@ -22,12 +22,12 @@ constexpr double kMaxFlexion = Radians(172.0);
 /// How far the canonical hinge pulls the flexion axis, as a sine: it rules below 20 degrees.
 constexpr double kHingeWeight = 0.35;
 
-V Pair(double a, double b) { return V{a, b}; }
-Mask Pair(bool a, bool b) { return Mask{a ? -1 : 0, b ? -1 : 0}; }
+EGO_LANES_INLINE V Pair(double a, double b) { return V{a, b}; }
+EGO_LANES_INLINE Mask Pair(bool a, bool b) { return Mask{a ? -1 : 0, b ? -1 : 0}; }
 
 /// A chain in each lane; see LimbChain.
 struct Chains {
-  Chains(const LimbChain& a, const LimbChain& b)
+  EGO_LANES_INLINE Chains(const LimbChain& a, const LimbChain& b)
       : of{&a, &b},
         base_ws(ego::Pair(a.base_ws, b.base_ws)),
         frame_ws(ego::Pair(a.frame_ws, b.frame_ws)),
@@ -73,7 +73,7 @@ struct Postures {
   Q base;
   Q mid;
 
-  Postures(const LimbPosture& a, const LimbPosture& b)
+  EGO_LANES_INLINE Postures(const LimbPosture& a, const LimbPosture& b)
       : base(ego::Pair(a.base, b.base)), mid(ego::Pair(a.mid, b.mid)) {}
   LimbPosture At(std::size_t lane) const { return {base.At(lane), mid.At(lane)}; }
 };
@@ -84,7 +84,7 @@ struct Placements {
   V3 end;
 };
 
-Placements Place(const Chains& chain, const Postures& posture) {
+EGO_LANES_INLINE Placements Place(const Chains& chain, const Postures& posture) {
   Placements placed;
   placed.base_ws = chain.frame_ws * posture.base;
   placed.mid = chain.base_ws + placed.base_ws * chain.upper_ls;
@@ -99,7 +99,7 @@ struct Flexions {
   V in_plane;
 };
 
-Flexions MeasureFlexion(const Chains& chain, const Q& mid) {
+EGO_LANES_INLINE Flexions MeasureFlexion(const Chains& chain, const Q& mid) {
   const V3 lower = mid * chain.lower_unit;
   const V3 normal = Cross(chain.upper_unit, lower);
   const V3 axis = UnitOr<V>(normal + Splat(kHingeWeight) * chain.hinge_across, chain.hinge_across);
@@ -111,10 +111,12 @@ Flexions MeasureFlexion(const Chains& chain, const Q& mid) {
 }
 
 /// Fades a direction out where what defines it is shorter than `scale`; `square` of its length.
-V Trust(const V& square, const V& scale) { return square / (square + scale * scale); }
+EGO_LANES_INLINE V Trust(const V& square, const V& scale) {
+  return square / (square + scale * scale);
+}
 
 /// 1, but near 0, below `least` away from it, less.
-V NearTrust(const V& distance, const V& least) {
+EGO_LANES_INLINE V NearTrust(const V& distance, const V& least) {
   const Mask far = distance > least;
   return Select<V>(far, Splat(1.0), Smoothstep<V>(distance / Select<V>(far, Splat(1.0), least)));
 }
@@ -123,7 +125,7 @@ V NearTrust(const V& distance, const V& least) {
 /// over-stretched stays on that side while no more bend is asked than it had, and turns to flexing
 /// the right way round within some ten degrees beyond; continuous also where the captured angle
 /// passes through zero.
-V Signed(const V& required, const V& captured) {
+EGO_LANES_INLINE V Signed(const V& required, const V& captured) {
   const V beyond = (required + captured) / Splat(Radians(10.0));
   const V turning = required + Splat(2.0) * captured / (Splat(1.0) + beyond * beyond);
   return Select<V>(captured >= V{}, required, Select<V>(required <= -captured, -required, turning));
@@ -131,7 +133,8 @@ V Signed(const V& required, const V& captured) {
 
 /// Mid rotation, of which `flexion` is measured, with the angle between the bones brought to
 /// `cosine`.
-Q FlexTo(const Chains& chain, const Q& mid, const Flexions& flexion, const V& cosine) {
+EGO_LANES_INLINE Q FlexTo(const Chains& chain, const Q& mid, const Flexions& flexion,
+                          const V& cosine) {
   const V one = Splat(1.0);
   // Where the lower bone lies along the hinge nothing turns it.
   const Mask can_turn = ~chain.mid_locked & chain.has_bones & (flexion.in_plane >= Splat(1e-6));
@@ -145,12 +148,14 @@ Q FlexTo(const Chains& chain, const Q& mid, const Flexions& flexion, const V& co
 
 /// Chord deficit 1 - cos(flexion) that is used when `wanted` would put the end in place. Soft where
 /// the limb gets straight, and exact where the captured limb already has it.
-V SoftDeficit(const Chains& chain, const V& wanted) {
+EGO_LANES_INLINE V SoftDeficit(const Chains& chain, const V& wanted) {
   const V& c = chain.reach_softness;
   const V half = Splat(0.5);
   const Mask is_soft = c > V{};
   const V four_square = Splat(4.0) * c * c;
-  const auto soft = [&](const V& x) { return half * (x + Sqrt<V>(x * x + four_square)); };
+  const auto soft = [&](const V& x) __attribute__((always_inline)) {
+    return half * (x + Sqrt<V>(x * x + four_square));
+  };
   const V away = (wanted - chain.captured_deficit) / Select<V>(is_soft, c, Splat(1.0));
   const V exact =
       (chain.captured_deficit - soft(chain.captured_deficit)) / (Splat(1.0) + away * away);
@@ -158,7 +163,8 @@ V SoftDeficit(const Chains& chain, const V& wanted) {
 }
 
 /// The smallest rotations that take `from` to `to` (unit); see `SmallestRotation`.
-Q SmallestTurn(const V3& from, const V3& to, const Q& base_ws, const V3& hinge_ls) {
+EGO_LANES_INLINE Q SmallestTurn(const V3& from, const V3& to, const Q& base_ws,
+                                const V3& hinge_ls) {
   const V cosine = Dot(from, to);
   const V3 axis = Cross(from, to);
   const V one = Splat(1.0);
@@ -176,7 +182,8 @@ Q SmallestTurn(const V3& from, const V3& to, const Q& base_ws, const V3& hinge_l
 
 /// Turns the whole limb by the smallest rotation that brings `from` to `to` (unit), as far as
 /// `trust` says.
-Q TurnBase(const Chains& chain, const Q& base, const V3& from, const V3& to, const V& trust) {
+EGO_LANES_INLINE Q TurnBase(const Chains& chain, const Q& base, const V3& from, const V3& to,
+                            const V& trust) {
   const Q base_ws = chain.frame_ws * base;
   Q turn = SmallestTurn(from, to, base_ws, chain.hinge_ls);
   const Mask in_part = trust < Splat(1.0);
@@ -188,27 +195,28 @@ Q TurnBase(const Chains& chain, const Q& base, const V3& from, const V3& to, con
                    Normalized(Conjugate(chain.frame_ws) * (turn * base_ws)));
 }
 
-Q TwistBase(const Chains& chain, const Q& base, const V3& axis_ws, const V& angle) {
+EGO_LANES_INLINE Q TwistBase(const Chains& chain, const Q& base, const V3& axis_ws,
+                             const V& angle) {
   return Select<V>(chain.base_locked, base,
                    Normalized(Conjugate(chain.frame_ws) *
                               (AngleAxis<V>(angle, axis_ws) * (chain.frame_ws * base))));
 }
 
 /// See `ego::BoundTwist`.
-V BoundTwist(const V& angle, const V& flexion) {
+EGO_LANES_INLINE V BoundTwist(const V& angle, const V& flexion) {
   const V magnitude = Abs<V>(angle);
   return CopySign<V>(SoftMin<V>(magnitude, Abs<V>(flexion), Max<V>(V{}, Splat(kPi) - magnitude)),
                      angle);
 }
 
 /// Angles from `from` to `to`, both at right angles to the unit `axis`.
-V AngleAround(const V3& axis, const V3& from, const V3& to) {
+EGO_LANES_INLINE V AngleAround(const V3& axis, const V3& from, const V3& to) {
   return Atan2<V>(Dot(axis, Cross(from, to)), Dot(from, to));
 }
 
 /// `flexion` is that of the posture.
-Postures ReachEnd(const Chains& chain, const Postures& posture, const Flexions& flexion,
-                  const V3& end_target) {
+EGO_LANES_INLINE Postures ReachEnd(const Chains& chain, const Postures& posture,
+                                   const Flexions& flexion, const V3& end_target) {
   const V one = Splat(1.0);
   Postures reached = posture;
   const V3 to_target = end_target - chain.base_ws;
@@ -229,8 +237,9 @@ Postures ReachEnd(const Chains& chain, const Postures& posture, const Flexions& 
   return reached;
 }
 
-Postures StandardIk(const Chains& chain, const Postures& posture, const Flexions& flexion,
-                    const V3& mid_target, const V3& end_target) {
+EGO_LANES_INLINE Postures StandardIk(const Chains& chain, const Postures& posture,
+                                     const Flexions& flexion, const V3& mid_target,
+                                     const V3& end_target) {
   Postures reached = ReachEnd(chain, posture, flexion, end_target);
   const Placements placed = Place(chain, reached);
   const V3 chord = placed.end - chain.base_ws;
@@ -247,8 +256,9 @@ Postures StandardIk(const Chains& chain, const Postures& posture, const Flexions
   return reached;
 }
 
-Postures ReversedIk(const Chains& chain, const Postures& posture, const Flexions& flexion,
-                    const V3& mid_target, const V3& end_target) {
+EGO_LANES_INLINE Postures ReversedIk(const Chains& chain, const Postures& posture,
+                                     const Flexions& flexion, const V3& mid_target,
+                                     const V3& end_target) {
   const V one = Splat(1.0);
   Postures reached = posture;
   const V3 to_mid = mid_target - chain.base_ws;
@@ -286,6 +296,42 @@ Postures ReversedIk(const Chains& chain, const Postures& posture, const Flexions
     reached.mid = Select<V>(chain.has_bones, reached.mid, without.mid);
   }
   return reached;
+}
+
+EGO_LANES_INLINE std::array<LimbPosture, 2> Blend(const std::array<LimbTask, 2>& task) {
+  const LimbTask& a = task[0];
+  const LimbTask& b = task[1];
+  const Chains chain(*a.chain, *b.chain);
+  const Postures start(a.start, b.start);
+  const Flexions flexion = MeasureFlexion(chain, start.mid);
+  const V3 mid = ego::Pair(a.mid_target, b.mid_target);
+  const V3 end = ego::Pair(a.end_target, b.end_target);
+  const V gamma = Pair(a.gamma, b.gamma);
+  Postures blended = StandardIk(chain, start, flexion, mid, end);
+  const Mask in_part = gamma > V{};
+  if (Any<V>(in_part)) {
+    const Postures reversed = ReversedIk(chain, start, flexion, mid, end);
+    blended.base = Select<V>(in_part, Slerp<V>(blended.base, reversed.base, gamma), blended.base);
+    blended.mid = Select<V>(in_part, Slerp<V>(blended.mid, reversed.mid, gamma), blended.mid);
+  }
+  return {blended.At(0), blended.At(1)};
+}
+
+// The same instructions as elsewhere, encoded shorter where the processor knows those of four
+// lanes.
+EGO_WIDE_LANES_TARGET
+std::array<LimbPosture, 2> BlendWide(const std::array<LimbTask, 2>& task) { return Blend(task); }
+
+EGO_LANES_INLINE LimbPosture Reach(const LimbChain& chain, const LimbPosture& posture,
+                                   const Vec3& end_target) {
+  const Chains chains(chain, chain);
+  const Postures postures(posture, posture);
+  return ReachEnd(chains, postures, MeasureFlexion(chains, postures.mid), Splat(end_target)).At(0);
+}
+
+EGO_WIDE_LANES_TARGET
+LimbPosture ReachWide(const LimbChain& chain, const LimbPosture& posture, const Vec3& end_target) {
+  return Reach(chain, posture, end_target);
 }
 
 }  // namespace
@@ -347,27 +393,18 @@ double BoundTwist(double angle, double flexion) {
 }
 
 LimbPosture ReachEnd(const LimbChain& chain, const LimbPosture& posture, const Vec3& end_target) {
-  const Chains chains(chain, chain);
-  const Postures postures(posture, posture);
-  return ReachEnd(chains, postures, MeasureFlexion(chains, postures.mid), Splat(end_target)).At(0);
+  return FastestLanes() == LaneWidth::kFour ? ReachWide(chain, posture, end_target)
+                                            : Reach(chain, posture, end_target);
 }
 
 LimbPosture StandardIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                        const Vec3& end_target) {
-  const Chains chains(chain, chain);
-  const Postures postures(posture, posture);
-  return StandardIk(chains, postures, MeasureFlexion(chains, postures.mid), Splat(mid_target),
-                    Splat(end_target))
-      .At(0);
+  return BlendedIk(chain, posture, mid_target, end_target, 0.0);
 }
 
 LimbPosture ReversedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
                        const Vec3& end_target) {
-  const Chains chains(chain, chain);
-  const Postures postures(posture, posture);
-  return ReversedIk(chains, postures, MeasureFlexion(chains, postures.mid), Splat(mid_target),
-                    Splat(end_target))
-      .At(0);
+  return BlendedIk(chain, posture, mid_target, end_target, 1.0);
 }
 
 LimbPosture BlendedIk(const LimbChain& chain, const LimbPosture& posture, const Vec3& mid_target,
@@ -376,23 +413,8 @@ LimbPosture BlendedIk(const LimbChain& chain, const LimbPosture& posture, const 
   return BlendedIk({task, task})[0];
 }
 
-std::array<LimbPosture, 2> BlendedIk(const std::array<LimbTask, 2>& task) {
-  const LimbTask& a = task[0];
-  const LimbTask& b = task[1];
-  const Chains chain(*a.chain, *b.chain);
-  const Postures start(a.start, b.start);
-  const Flexions flexion = MeasureFlexion(chain, start.mid);
-  const V3 mid = ego::Pair(a.mid_target, b.mid_target);
-  const V3 end = ego::Pair(a.end_target, b.end_target);
-  const V gamma = Pair(a.gamma, b.gamma);
-  Postures blended = StandardIk(chain, start, flexion, mid, end);
-  const Mask in_part = gamma > V{};
-  if (Any<V>(in_part)) {
-    const Postures reversed = ReversedIk(chain, start, flexion, mid, end);
-    blended.base = Select<V>(in_part, Slerp<V>(blended.base, reversed.base, gamma), blended.base);
-    blended.mid = Select<V>(in_part, Slerp<V>(blended.mid, reversed.mid, gamma), blended.mid);
-  }
-  return {blended.At(0), blended.At(1)};
+std::array<LimbPosture, 2> BlendedIk(const std::array<LimbTask, 2>& task, LaneWidth lanes) {
+  return lanes == LaneWidth::kFour ? BlendWide(task) : Blend(task);
 }
 
 }  // namespace ego

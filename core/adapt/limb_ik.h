@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/math.h"
+#include "core/geometry/lanes.h"
 #include "core/skeleton/skeleton.h"
 
 namespace ego {
@@ -95,8 +96,9 @@ struct LimbTask {
   Vec3 end_target{0.0};
   double gamma = 0.0;
 };
-/// Two limbs at once, each exactly as it would be alone.
-std::array<LimbPosture, 2> BlendedIk(const std::array<LimbTask, 2>& task);
+/// Two limbs at once, each exactly as it would be alone, on any processor.
+std::array<LimbPosture, 2> BlendedIk(const std::array<LimbTask, 2>& task,
+                                     LaneWidth lanes = FastestLanes());
 
 /// The twist that may be used of a wanted `angle` at a flexion: the least of |angle|, flexion and
 /// pi - |angle|, without a kink, signed. Zero for a straight limb and for a half turn, where the

@@ -60,10 +60,13 @@ TEST(LimbIk, DoesNotHeedThePartner) {
                  std::max(0.0, uniform(engine))};
     }
     const std::array<LimbPosture, 2> together = BlendedIk(task);
+    const std::array<LimbPosture, 2> plain = BlendedIk(task, LaneWidth::kTwo);
     for (std::size_t k = 0; k < 2; ++k) {
       const LimbPosture alone = BlendedIk({task[k], task[k]})[1];
       EXPECT_EQ(together[k].base, alone.base) << trial;
       EXPECT_EQ(together[k].mid, alone.mid) << trial;
+      EXPECT_EQ(plain[k].base, alone.base) << trial;
+      EXPECT_EQ(plain[k].mid, alone.mid) << trial;
       EXPECT_NEAR(glm::length(alone.base), 1.0, 1e-12);
       EXPECT_NEAR(glm::length(alone.mid), 1.0, 1e-12);
       if (chain[k].mid_locked) {
