@@ -36,7 +36,7 @@ struct AdaptState {
   std::array<BodySum, kLimbPointCount> body_sum;
   /// Length of every displacement from a capsule on this body (equation 5 reversed): the six of
   /// the other limbs by slot, then the other hand.
-  std::array<std::array<double, kOtherSegmentCount + 1>, kLimbPointCount> capsule_reach{};
+  std::array<std::array<double, kOtherCapsuleCount>, kLimbPointCount> capsule_reach{};
   /// Equation 2 of every limb's mid and end joint.
   std::array<std::array<JointTarget, 2>, kLimbCount> joint_target;
   /// Where the middle of each sole is from the root's ground point in standing (`StandingPlace`).

@@ -6,6 +6,7 @@
 
 #include "core/adapt/half_space.h"
 #include "core/adapt/joint_target.h"
+#include "core/egocentric/capsule_relations.h"
 #include "core/geometry/rotation.h"
 
 namespace ego {
@@ -13,13 +14,6 @@ namespace {
 
 double OwnThickness(const AdaptState& state, LimbPoint j) {
   return state.egocentric.form.own_thickness ? state.constants.thickness[Index(j)] : 0.0;
-}
-
-/// R' inside + tau' gap: equation 5 reversed (see NormalizedDistance).
-double Reach(const AdaptState& state, const NormalizedDistance& distance, const KinematicPath& path,
-             double filled) {
-  return filled * distance.inside +
-         distance.gap * PathFactor(path, distance.cosine, state.constants.bone_length);
 }
 
 /// From the end joint to a point of the hand, as the hand will end.
@@ -104,23 +98,16 @@ Vec3 WithinReach(const LimbChain& chain, const Vec3& target) {
 }  // namespace
 
 void MeasureCapsuleReach(AdaptState& state) {
-  const std::size_t points = state.egocentric.form.hand_points ? kLimbPointCount : kLimbJointCount;
-  for (std::size_t k = 0; k < points; ++k) {
-    const auto j = static_cast<LimbPoint>(k);
-    const PointCoordinates& coordinates = state.egocentric.point[k];
-    const double own = OwnThickness(state, j);
-    for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
-      if (coordinates.capsule[slot].importance == 0.0) continue;
-      const LimbSegment other = OtherSegment(LimbOf(j), slot);
-      state.capsule_reach[k][slot] =
-          Reach(state, coordinates.capsule[slot].distance, PathBetween(StartJoint(other), j),
-                state.avatar.surface.limb_radius[Index(other)] + own);
+  for (std::size_t group = 0; group < kPointGroupCount; ++group) {
+    std::array<Quad, kOtherCapsuleCount> reach;
+    CapsuleReaches(state.avatar, state.constants, state.egocentric.form, group,
+                   state.egocentric.capsule_distance[group], reach);
+    for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
+      auto& of_point = state.capsule_reach[Index(kPointGroups[group][lane])];
+      for (std::size_t slot = 0; slot < kOtherCapsuleCount; ++slot) {
+        of_point[slot] = reach[slot][lane];
+      }
     }
-    if (coordinates.hand.importance == 0.0) continue;
-    const Limb partner = Mirror(LimbOf(j));
-    state.capsule_reach[k][kOtherSegmentCount] =
-        Reach(state, coordinates.hand.distance, PathBetween(JointsOf(partner).end, j),
-              state.avatar.surface.hand[Index(partner)].half_thickness + own);
   }
 }
 

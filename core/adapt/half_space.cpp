@@ -17,27 +17,10 @@ double Depth(double violation, double ramp) {
   return ramp > 0.0 ? SoftRamp(violation, ramp) : std::max(0.0, violation);
 }
 
-double LeastDistance(const HalfSpace& half_space, const PosedCapsule& capsule) {
-  return std::min(half_space.Distance(capsule.start), half_space.Distance(capsule.end)) -
-         capsule.radius;
-}
-
 }  // namespace
 
-HalfSpace MapPlane(const EgocentricPlane& plane, const PosedCapsule& other, double height) {
-  const Vec3 normal = other.frame * plane.normal_ls;
-  return {normal, glm::dot(normal, other.At(plane.axial)) + other.radius + plane.slack * height};
-}
-
-RelaxedPlane Relax(const HalfSpace& plane, const EgocentricPlane& reverse, const PosedCapsule& own,
-                   const PosedCapsule& other, double height, double slack) {
-  const Vec3 opposite = -(own.frame * reverse.normal_ls);
-  const double support = std::max(glm::dot(opposite, other.start), glm::dot(opposite, other.end));
-  const HalfSpace projected{opposite, support + other.radius + slack * height};
-
-  const double distance = LeastDistance(plane, own);
-  const double distance_projected = LeastDistance(projected, own);
-  if (distance >= 0.0 && distance_projected >= 0.0) return {};
+RelaxedPlane RelaxBetween(const HalfSpace& plane, double distance, const HalfSpace& projected,
+                          double distance_projected, double height) {
   const double to_cm = 100.0 * 1.78 / height;
   const double safe = Safety(to_cm * distance);
   const double safe_projected = Safety(to_cm * distance_projected);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "core/adapt/limb_ik.h"
 #include "core/egocentric/egocentric_pose.h"
 #include "core/egocentric/posed_body.h"
@@ -12,11 +14,18 @@ struct HalfSpace {
   Vec3 normal{0.0};
   double offset = 0.0;
   double Distance(const Vec3& p) const { return glm::dot(normal, p) - offset; }
+  /// Of a capsule's skin.
+  double Distance(const PosedCapsule& capsule) const {
+    return std::min(Distance(capsule.start), Distance(capsule.end)) - capsule.radius;
+  }
 };
 
 /// The egocentric plane of a segment on the avatar (section 5.3): the tangent plane of the other
 /// capsule `other` at the mapped closest point, moved back by the performer's own slack.
-HalfSpace MapPlane(const EgocentricPlane& plane, const PosedCapsule& other, double height);
+inline HalfSpace MapPlane(const EgocentricPlane& plane, const PosedCapsule& other, double height) {
+  const Vec3 normal = other.frame * plane.normal_ls;
+  return {normal, glm::dot(normal, other.At(plane.axial)) + other.radius + plane.slack * height};
+}
 
 /// Relaxation of appendix B for segment `own` against `other`: `plane` (mapped, ep'_{i|j}) is
 /// interpolated with ep+_{i|j}, the tangent plane of `other` that is parallel to the other
@@ -30,8 +39,20 @@ struct RelaxedPlane {
   HalfSpace half_space;
   double strength = 0.0;  // in [0, 1]
 };
-RelaxedPlane Relax(const HalfSpace& plane, const EgocentricPlane& reverse, const PosedCapsule& own,
-                   const PosedCapsule& other, double height, double slack);
+/// Of both planes with the distances of `own` to them.
+RelaxedPlane RelaxBetween(const HalfSpace& plane, double distance, const HalfSpace& projected,
+                          double distance_projected, double height);
+inline RelaxedPlane Relax(const HalfSpace& plane, const EgocentricPlane& reverse,
+                          const PosedCapsule& own, const PosedCapsule& other, double height,
+                          double slack) {
+  const Vec3 opposite = -(own.frame * reverse.normal_ls);
+  const double support = std::max(glm::dot(opposite, other.start), glm::dot(opposite, other.end));
+  const HalfSpace projected{opposite, support + other.radius + slack * height};
+  const double distance = plane.Distance(own);
+  const double distance_projected = projected.Distance(own);
+  if (distance >= 0.0 && distance_projected >= 0.0) return {};
+  return RelaxBetween(plane, distance, projected, distance_projected, height);
+}
 
 /// Progressive activation (figure 14): the plane, held back by `retreat` metres at w = 0 and fully
 /// in place at w = 1.

@@ -9,10 +9,8 @@
 namespace ego {
 namespace {
 
-constexpr std::size_t kHandSlot = kOtherSegmentCount;
-
 /// Terms by slot, before those that matter are put together.
-using Terms = std::array<JointTarget::OnCapsule, kOtherSegmentCount + 1>;
+using Terms = std::array<JointTarget::OnCapsule, kOtherCapsuleCount>;
 
 void AddPoint(const AdaptState& state, LimbPoint j, double weight, JointTarget& target,
               Terms& terms) {

@@ -26,8 +26,8 @@ struct JointTarget {
   std::array<double, 3> on_body{};
   std::size_t point_count = 0;
   /// The other limbs' segments by slot, then the other hand; those up to `capsule_count` matter.
-  std::array<OnCapsule, kOtherSegmentCount + 1> on_capsule{};
-  std::array<std::uint8_t, kOtherSegmentCount + 1> slot{};
+  std::array<OnCapsule, kOtherCapsuleCount> on_capsule{};
+  std::array<std::uint8_t, kOtherCapsuleCount> slot{};
   std::size_t capsule_count = 0;
   double on_partner = 0.0;   // of the partner's end joint
   double on_ground = 0.0;    // of where the ground wants an ankle

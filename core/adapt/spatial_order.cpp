@@ -6,8 +6,8 @@
 namespace ego {
 namespace {
 
-PosedCapsule PlaceSegment(const AdaptState& state, LimbSegment segment,
-                          const LimbPlacement& placed) {
+inline PosedCapsule PlaceSegment(const AdaptState& state, LimbSegment segment,
+                                 const LimbPlacement& placed) {
   const LimbChain& chain = state.chain[Index(LimbOf(segment))];
   const bool lower = IsLower(segment);
   return {lower ? placed.mid : chain.base_ws, lower ? placed.end : placed.mid,

@@ -11,17 +11,20 @@
 
 namespace ego {
 
-/// How far a limb point is from a primitive, without a metre: with q the distance from the
-/// reference point (for a capsule: from its axis) and R what the surfaces themselves fill of it
-/// (the point's own thickness, the capsule's radius),
+/// How far the four points of a group are from a primitive each, without a metre: with q the
+/// distance from the reference point (for a capsule: from its axis) and R what the surfaces
+/// themselves fill of it (the point's own thickness, the capsule's radius),
 ///   inside = min(1, q / R),   gap = max(0, q - R) / tau.
 /// On another body the distance is R' inside + tau' gap (equation 5): contact stays contact
-/// whatever the thicknesses, and the point itself stays put where q passes through zero.
-struct NormalizedDistance {
-  double inside = 1.0;
-  double gap = 0.0;
-  PathCosines cosine{};  // C
+/// whatever the thicknesses, and the point itself stays put where q passes through zero. tau is the
+/// sum over the path's bones of length * (kLeastCosine + cosine).
+struct CapsuleDistance {
+  Quad inside{};
+  Quad gap{};
+  std::array<Quad, kMaxPathLength> cosine{};  // C: |cos alpha_i| along CapsulePaths::Path
 };
+/// By the capsules' slots.
+using GroupDistances = std::array<CapsuleDistance, kOtherCapsuleCount>;
 
 /// All tuples of equation 6 against the triangles of one crude mesh, summed, for the four points of
 /// a group side by side. On another body every term lambda-hat (x + v) of equation 2 is linear in
@@ -45,7 +48,6 @@ struct CapsuleRelation {
   double importance = 0.0;  // lambda-hat
   double axial = 0.0;       // x-hat: along the axis, 0 at the start joint, 1 at the end
   Vec3 direction_ls{0.0};   // x-hat's angle and v-hat's direction at once, in the bone frame
-  NormalizedDistance distance;
 };
 
 /// A foot against the ground (figure 6), in standing root heights.
@@ -59,7 +61,7 @@ struct GroundRelation {
 };
 
 /// Egocentric coordinates of one point: E_j of equation 6. Those against trunk and head stand in
-/// `EgocentricPose::mesh`.
+/// `EgocentricPose::mesh`, the distances from capsules in `EgocentricPose::capsule_distance`.
 struct PointCoordinates {
   double mesh_importance_max = 0.0;  // largest lambda-hat of a single triangle
   std::array<CapsuleRelation, kOtherSegmentCount> capsule;
@@ -120,6 +122,13 @@ struct EgocentricForm {
   bool clearance = true;
 };
 
+/// Whether the points of a group relate to the capsule of a slot.
+inline bool RelatesToCapsule(const EgocentricForm& form, std::size_t group, std::size_t slot) {
+  const Limb limb = LimbOf(kPointGroups[group][0]);
+  if (slot == kHandSlot) return IsArm(limb) && form.hand_points;
+  return IsArm(limb) || !IsArm(LimbOf(OtherSegment(limb, slot))) || form.legs_relate_to_arms;
+}
+
 /// The egocentric representation of a posture (section 5). No metre in it: nothing of the
 /// performer's size is left.
 struct EgocentricPose {
@@ -129,7 +138,8 @@ struct EgocentricPose {
   Vec3 root{0.0};                                       // 2) (g-hat, h-hat_root) of equation 1
   std::array<PointCoordinates, kLimbPointCount> point;  // 3)
   std::array<MeshCoordinates, kPointGroupCount> mesh;   //    by kPointGroups
-  std::array<NormalCoordinates, kLimbCount> normal;     //    palms of the arms, soles of the legs
+  std::array<GroupDistances, kPointGroupCount> capsule_distance;
+  std::array<NormalCoordinates, kLimbCount> normal;  //    palms of the arms, soles of the legs
   std::array<std::array<EgocentricPlane, kOtherSegmentCount>, kSegmentCount> plane;  // 4)
   using ArmClearance = std::array<std::array<Clearance, kObstacleCount>, kClearanceSampleCount>;
   std::array<ArmClearance, 2> clearance;  //    remedy: arms kept out of the body

@@ -63,37 +63,74 @@ constexpr PathTable MakeTable() {
 
 constexpr PathTable kPathTable = MakeTable();
 
-/// The bones that the paths from a joint to the points of a group run along at place `i`.
-std::array<std::uint8_t, kPointGroupSize> BonesAt(HumanoidJoint from, const PointGroup& to,
-                                                  std::size_t i) {
-  std::array<std::uint8_t, kPointGroupSize> bone{};
+/// By point of a group where its path begins.
+using Origins = std::array<HumanoidJoint, kPointGroupSize>;
+using BoneQuad = std::array<std::uint8_t, kPointGroupSize>;
+
+/// The bones that the paths to the points of a group run along at place `i`.
+BoneQuad BonesAt(const Origins& from, const PointGroup& to, std::size_t i) {
+  BoneQuad bone{};
   for (std::size_t lane = 0; lane < to.size(); ++lane) {
-    const KinematicPath& path = PathBetween(from, to[lane]);
+    const KinematicPath& path = PathBetween(from[lane], to[lane]);
     bone[lane] = i < path.length ? path.bone[i] : std::uint8_t{0};
   }
   return bone;
 }
 
-std::size_t LongestPath(HumanoidJoint from, const PointGroup& to) {
+std::size_t LongestPath(const Origins& from, const PointGroup& to) {
   std::size_t longest = 0;
-  for (const LimbPoint j : to)
-    longest = std::max<std::size_t>(longest, PathBetween(from, j).length);
+  for (std::size_t lane = 0; lane < to.size(); ++lane) {
+    longest = std::max<std::size_t>(longest, PathBetween(from[lane], to[lane]).length);
+  }
   return longest;
+}
+
+Origins OriginsOf(std::size_t triangle) {
+  Origins from;
+  from.fill(ParentJoint(triangle));
+  return from;
 }
 
 MeshPaths MakeMeshPaths(std::size_t first, std::size_t end, const PointGroup& to) {
   MeshPaths paths;
-  HumanoidJoint farthest = ParentJoint(first);
+  Origins farthest = OriginsOf(first);
   for (std::size_t t = first; t < end; ++t) {
-    if (LongestPath(ParentJoint(t), to) > LongestPath(farthest, to)) farthest = ParentJoint(t);
+    if (LongestPath(OriginsOf(t), to) > LongestPath(farthest, to)) farthest = OriginsOf(t);
   }
   paths.length = LongestPath(farthest, to);
   for (std::size_t i = 0; i < paths.length; ++i) paths.bone[i] = BonesAt(farthest, to, i);
   for (std::size_t t = first; t < end; ++t) {
-    const std::size_t length = LongestPath(ParentJoint(t), to);
+    const std::size_t length = LongestPath(OriginsOf(t), to);
     paths.begin[t] = static_cast<std::uint8_t>(paths.length - length);
     for (std::size_t i = 0; i < length; ++i) {
-      EGO_CHECK(BonesAt(ParentJoint(t), to, i) == paths.bone[paths.begin[t] + i]);
+      EGO_CHECK(BonesAt(OriginsOf(t), to, i) == paths.bone[paths.begin[t] + i]);
+    }
+  }
+  return paths;
+}
+
+CapsulePaths MakeCapsulePaths(std::size_t group) {
+  const PointGroup& to = kPointGroups[group];
+  CapsulePaths paths;
+  for (std::size_t slot = 0; slot < kOtherCapsuleCount; ++slot) {
+    if (slot == kHandSlot && !IsArm(LimbOf(to[0]))) continue;
+    Origins from;
+    for (std::size_t lane = 0; lane < to.size(); ++lane) {
+      const Limb limb = LimbOf(to[lane]);
+      from[lane] =
+          slot == kHandSlot ? JointsOf(Mirror(limb)).end : StartJoint(OtherSegment(limb, slot));
+    }
+    CapsulePaths::Path& path = paths.from[slot];
+    path.length = LongestPath(from, to);
+    for (std::size_t i = 0; i < path.length; ++i) {
+      const BoneQuad bone = BonesAt(from, to, i);
+      const auto known = paths.bone.begin() + static_cast<std::ptrdiff_t>(paths.bone_count);
+      const auto found = std::find(paths.bone.begin(), known, bone);
+      if (found == known) {
+        EGO_CHECK(paths.bone_count < kMaxGroupBones);
+        paths.bone[paths.bone_count++] = bone;
+      }
+      path.bone[i] = static_cast<std::uint8_t>(found - paths.bone.begin());
     }
   }
   return paths;
@@ -122,6 +159,12 @@ const MeshPaths& PathsFromTrunk(std::size_t group) {
 
 const MeshPaths& PathsFromHead(std::size_t group) {
   static const AllMeshPaths kAll = MakeAllMeshPaths(kTrunkTriangleCount, kTriangleCount);
+  return kAll[group];
+}
+
+const CapsulePaths& PathsFromCapsules(std::size_t group) {
+  static const std::array<CapsulePaths, kPointGroupCount> kAll = {
+      MakeCapsulePaths(0), MakeCapsulePaths(1), MakeCapsulePaths(2)};
   return kAll[group];
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "core/body/body_surface.h"
@@ -47,32 +46,19 @@ const MeshPaths& PathsFromHead(std::size_t group);
 /// displacement and the ratio of two bodies' tau is always a convex mean of their bones' ratios.
 inline constexpr double kLeastCosine = 0.01;
 
-/// Absolute cosines |cos alpha_i| of a path's bones to a displacement (equation 4).
-using PathCosines = std::array<float, kMaxPathLength>;
-
-/// tau = sum of |s_i| |cos alpha_i| (equation 5).
-inline double PathFactor(const KinematicPath& path, const PathCosines& cosine,
-                         const std::array<double, kBoneCount>& bone_length) {
-  double tau = 0.0;
-  for (std::size_t i = 0; i < path.length; ++i) {
-    tau += bone_length[path.bone[i]] * (kLeastCosine + static_cast<double>(cosine[i]));
-  }
-  return tau;
-}
-
-/// Fills the cosines of a unit `direction` to the bones and returns tau of the same body, as
-/// `PathFactor` does. A bone without length has the cosine 0. `bone_direction` are unit vectors in
-/// the same space.
-inline double MeasurePath(const KinematicPath& path, const Vec3& direction,
-                          const std::array<Vec3, kBoneCount>& bone_direction,
-                          const std::array<double, kBoneCount>& bone_length, PathCosines& cosine) {
-  double tau = 0.0;
-  for (std::size_t i = 0; i < path.length; ++i) {
-    const std::size_t bone = path.bone[i];
-    cosine[i] = static_cast<float>(std::abs(glm::dot(direction, bone_direction[bone])));
-    tau += bone_length[bone] * (kLeastCosine + static_cast<double>(cosine[i]));
-  }
-  return tau;
-}
+/// The paths from the capsules that a group's points relate to (`OtherSegment`, then the other
+/// hand), side by side likewise.
+inline constexpr std::size_t kMaxGroupBones = 24;
+struct CapsulePaths {
+  struct Path {
+    std::array<std::uint8_t, kMaxPathLength> bone{};  // of those below
+    std::size_t length = 0;
+  };
+  std::array<Path, kOtherCapsuleCount> from{};  // by slot; of legs' groups not from a hand
+  /// All that any path runs along.
+  std::array<std::array<std::uint8_t, kPointGroupSize>, kMaxGroupBones> bone{};
+  std::size_t bone_count = 0;
+};
+const CapsulePaths& PathsFromCapsules(std::size_t group);
 
 }  // namespace ego

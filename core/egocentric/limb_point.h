@@ -54,6 +54,16 @@ inline constexpr std::array<PointGroup, kPointGroupCount> kPointGroups = {
      {LimbPoint::kRightElbow, LimbPoint::kRightWrist, LimbPoint::kRightPalm,
       LimbPoint::kRightFingertip},
      {LimbPoint::kLeftKnee, LimbPoint::kRightKnee, LimbPoint::kLeftAnkle, LimbPoint::kRightAnkle}}};
+/// The limbs of a group's points take turns: its even ones are one's, its odd ones another's.
+constexpr std::array<Limb, 2> LimbsOf(std::size_t group) {
+  return {LimbOf(kPointGroups[group][0]), LimbOf(kPointGroups[group][1])};
+}
+static_assert(LimbOf(kPointGroups[0][2]) == LimbsOf(0)[0] &&
+              LimbOf(kPointGroups[1][2]) == LimbsOf(1)[0] &&
+              LimbOf(kPointGroups[2][2]) == LimbsOf(2)[0] &&
+              LimbOf(kPointGroups[0][3]) == LimbsOf(0)[1] &&
+              LimbOf(kPointGroups[1][3]) == LimbsOf(1)[1] &&
+              LimbOf(kPointGroups[2][3]) == LimbsOf(2)[1]);
 /// Where a point is in its group.
 constexpr std::size_t GroupOf(LimbPoint point) {
   return IsArm(LimbOf(point)) ? Index(LimbOf(point)) : 2;
@@ -68,14 +78,16 @@ constexpr std::size_t LaneOf(LimbPoint point) {
 /// of the partner, of the other limb on this side, of the other limb on the other side.
 inline constexpr std::size_t kOtherSegmentCount = 6;
 constexpr LimbSegment OtherSegment(Limb limb, std::size_t slot) {
-  const auto i = static_cast<std::size_t>(limb);
-  const std::array<std::size_t, 3> others = {i ^ 1u, i ^ 2u, i ^ 3u};
-  return static_cast<LimbSegment>(2 * others[slot / 2] + slot % 2);
+  return static_cast<LimbSegment>(2 * (Index(limb) ^ (slot / 2 + 1)) + slot % 2);
 }
 /// The slot at which `of` is found among the other segments of `limb`; they must be of two limbs.
 constexpr std::size_t SlotOf(Limb limb, LimbSegment of) {
   const std::size_t difference = Index(limb) ^ Index(LimbOf(of));
   return 2 * (difference - 1) + (IsLower(of) ? 1 : 0);
 }
+
+/// With the other hand after them, which only arms relate to.
+inline constexpr std::size_t kHandSlot = kOtherSegmentCount;
+inline constexpr std::size_t kOtherCapsuleCount = kOtherSegmentCount + 1;
 
 }  // namespace ego

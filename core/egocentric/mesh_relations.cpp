@@ -20,7 +20,7 @@ struct Bones {
   std::array<Quad, kMaxPathLength> per_length;  // 0 for a bone without length
 };
 
-Points PointsOf(const MeshQuery& query) {
+Points PointsOf(const GroupQuery& query) {
   Points points;
   for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
     const std::size_t j = Index(kPointGroups[query.group][lane]);
@@ -32,7 +32,7 @@ Points PointsOf(const MeshQuery& query) {
   return points;
 }
 
-void BonesOf(const MeshQuery& query, const MeshPaths& paths, Bones& bones) {
+void BonesOf(const GroupQuery& query, const MeshPaths& paths, Bones& bones) {
   bones.least[paths.length] = {};
   for (std::size_t i = paths.length; i-- > 0;) {
     for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
@@ -65,7 +65,8 @@ struct Displacements {
 /// Closest points, importances (appendix A, equations 1 and 2; see `Proximity` and `Orthogonality`)
 /// and the shares of the triangle's corners.
 template <class V>
-EGO_LANES_INLINE Displacements<V> Displace(const MeshQuery& query, const TriangleLanes<V>& triangle,
+EGO_LANES_INLINE Displacements<V> Displace(const GroupQuery& query,
+                                           const TriangleLanes<V>& triangle,
                                            const SampleTriangle& corner,
                                            const LaneVectors<V>& point, const V& thickness,
                                            Totals<V>& totals) {
@@ -128,10 +129,10 @@ EGO_LANES_INLINE void SpreadOverBones(const Bones& bones, std::size_t begin, std
 
 /// One mesh: the triangles from `begin` up to `end`. For the points from `first` on.
 template <class V>
-EGO_LANES_INLINE void RelateToMesh(const MeshQuery& query, const Points& points,
+EGO_LANES_INLINE void RelateToMesh(const GroupQuery& query, const Points& points,
                                    const MeshPaths& paths, const Bones& bones, std::size_t first,
                                    std::size_t begin, std::size_t end, Totals<V>& totals,
-                                   MeshRelations& relations, MeshImportances& importances) {
+                                   MeshRelations& relations, TriangleImportances& importance) {
   const std::array<SampleTriangle, kTriangleCount>& corners = SampleTriangles();
   const LaneVectors<V> point = Load<V>(points.position, first);
   const V thickness = Load<V>(points.thickness, first);
@@ -145,7 +146,7 @@ EGO_LANES_INLINE void RelateToMesh(const MeshQuery& query, const Points& points,
     const TriangleLanes<V> triangle = Splat<V>(query.posed.triangle[t / 4], t % 4);
     const Displacements<V> found =
         Displace<V>(query, triangle, corners[t], point, thickness, totals);
-    Store<V>(found.importance, importances.triangle[t], first);
+    Store<V>(found.importance, importance[t], first);
     const V inside = Select<V>(is_thick, Min<V>(one, found.length * per_thickness), one);
     inside_sum += (found.importance * inside) * found.direction;
     SpreadOverBones<V>(bones, paths.begin[t], paths.length, first, found.direction,
@@ -169,34 +170,35 @@ EGO_LANES_INLINE void RelateToMesh(const MeshQuery& query, const Points& points,
 
 /// Both meshes, for the points from `first` on.
 template <class V>
-EGO_LANES_INLINE void RelatePoints(const MeshQuery& query, const Points& points,
+EGO_LANES_INLINE void RelatePoints(const GroupQuery& query, const Points& points,
                                    const Bones& to_trunk, const Bones& to_head, std::size_t first,
-                                   MeshCoordinates& relations, MeshImportances& importances) {
+                                   MeshCoordinates& relations, Importances& total,
+                                   TriangleImportances& triangle) {
   Totals<V> totals;
   RelateToMesh<V>(query, points, PathsFromTrunk(query.group), to_trunk, first, 0,
-                  kTrunkTriangleCount, totals, relations.trunk, importances);
+                  kTrunkTriangleCount, totals, relations.trunk, triangle);
   RelateToMesh<V>(query, points, PathsFromHead(query.group), to_head, first, kTrunkTriangleCount,
-                  kTriangleCount, totals, relations.head, importances);
+                  kTriangleCount, totals, relations.head, triangle);
   for (std::size_t s = 0; s < kSampleCount; ++s) {
     Store<V>(totals.sample[s], relations.sample[s], first);
   }
-  Store<V>(totals.sum, importances.sum, first);
-  Store<V>(totals.max, importances.max, first);
-  Store<V>(totals.priority, importances.priority, first);
+  Store<V>(totals.sum, total.sum, first);
+  Store<V>(totals.max, total.max, first);
+  Store<V>(totals.priority, total.priority, first);
 }
 
-void RelateInTwoLanes(const MeshQuery& query, const Points& points, const Bones& to_trunk,
-                      const Bones& to_head, MeshCoordinates& relations,
-                      MeshImportances& importances) {
-  RelatePoints<Lanes>(query, points, to_trunk, to_head, 0, relations, importances);
-  RelatePoints<Lanes>(query, points, to_trunk, to_head, 2, relations, importances);
+void RelateInTwoLanes(const GroupQuery& query, const Points& points, const Bones& to_trunk,
+                      const Bones& to_head, MeshCoordinates& relations, Importances& total,
+                      TriangleImportances& triangle) {
+  RelatePoints<Lanes>(query, points, to_trunk, to_head, 0, relations, total, triangle);
+  RelatePoints<Lanes>(query, points, to_trunk, to_head, 2, relations, total, triangle);
 }
 
 EGO_WIDE_LANES_TARGET
-void RelateInFourLanes(const MeshQuery& query, const Points& points, const Bones& to_trunk,
-                       const Bones& to_head, MeshCoordinates& relations,
-                       MeshImportances& importances) {
-  RelatePoints<WideLanes>(query, points, to_trunk, to_head, 0, relations, importances);
+void RelateInFourLanes(const GroupQuery& query, const Points& points, const Bones& to_trunk,
+                       const Bones& to_head, MeshCoordinates& relations, Importances& total,
+                       TriangleImportances& triangle) {
+  RelatePoints<WideLanes>(query, points, to_trunk, to_head, 0, relations, total, triangle);
 }
 
 void Scale(const Quad& share, Quad& values) {
@@ -217,17 +219,17 @@ void Scale(const Quad& share, std::size_t length, MeshRelations& relations) {
 
 }  // namespace
 
-void RelateToMeshes(const MeshQuery& query, MeshCoordinates& relations,
-                    MeshImportances& importances, LaneWidth lanes) {
+void RelateToMeshes(const GroupQuery& query, MeshCoordinates& relations, Importances& total,
+                    TriangleImportances& triangle, LaneWidth lanes) {
   const Points points = PointsOf(query);
   Bones to_trunk;
   Bones to_head;
   BonesOf(query, PathsFromTrunk(query.group), to_trunk);
   BonesOf(query, PathsFromHead(query.group), to_head);
   if (lanes == LaneWidth::kFour) {
-    RelateInFourLanes(query, points, to_trunk, to_head, relations, importances);
+    RelateInFourLanes(query, points, to_trunk, to_head, relations, total, triangle);
   } else {
-    RelateInTwoLanes(query, points, to_trunk, to_head, relations, importances);
+    RelateInTwoLanes(query, points, to_trunk, to_head, relations, total, triangle);
   }
 }
 

@@ -9,9 +9,9 @@
 
 namespace ego {
 
-/// How far the four points of a group are from the triangles of both crude meshes: equations 4 to 6
-/// of the paper with appendix A. Everything in world space and metres.
-struct MeshQuery {
+/// The four points of a group on a body in place: what equations 4 to 6 of the paper with appendix
+/// A are asked about. Everything in world space and metres.
+struct GroupQuery {
   const BodyConstants& constants;
   const PosedBody& posed;
   std::size_t group = 0;
@@ -23,18 +23,18 @@ struct MeshQuery {
   double least_factor = 0.0;   // tau is never taken as less
 };
 
-/// Importances before normalisation, by point.
-struct MeshImportances {
-  Quad sum;
-  Quad max;
-  Quad priority;  // see ImportanceTotal
-  std::array<Quad, kTriangleCount> triangle;
+/// Importances before normalisation, by point; see ImportanceTotal.
+struct Importances {
+  Quad sum{};
+  Quad max{};
+  Quad priority{};
 };
+using TriangleImportances = std::array<Quad, kTriangleCount>;
 
-/// Relates the points to all triangles; `relations` are before normalisation too. Every point is
-/// computed as it would be alone: the same bits for any `lanes`.
-void RelateToMeshes(const MeshQuery& query, MeshCoordinates& relations,
-                    MeshImportances& importances, LaneWidth lanes = FastestLanes());
+/// Relates the points to all triangles and sets `total`; `relations` are before normalisation too.
+/// Every point is computed as it would be alone: the same bits for any `lanes`.
+void RelateToMeshes(const GroupQuery& query, MeshCoordinates& relations, Importances& total,
+                    TriangleImportances& triangle, LaneWidth lanes = FastestLanes());
 
 /// Multiplies what is kept of every point by its own `share`.
 void ScaleMeshCoordinates(const Quad& share, std::size_t group, MeshCoordinates& coordinates);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/egocentric/capsule_relations.h"
 #include "core/egocentric/clearance.h"
 #include "core/egocentric/importance.h"
 #include "core/egocentric/mesh_relations.h"
@@ -22,32 +23,6 @@ struct Context {
   const PosedBody& posed;
   double scale;  // height over 1.78 m: what the settings' lengths are multiplied by
 };
-
-/// Equations 4 and 5 for a displacement of length `reach` along the unit `direction`, of which
-/// `filled` lies inside the surfaces.
-void NormalizeDistance(const Context& context, const KinematicPath& path, const Vec3& direction,
-                       double reach, double filled, NormalizedDistance& distance) {
-  distance.inside = filled > 0.0 ? std::min(1.0, reach / filled) : 1.0;
-  const double tau = MeasurePath(path, direction, context.posed.bone_direction,
-                                 context.constants.bone_length, distance.cosine);
-  distance.gap = std::max(0.0, reach - filled) / std::max(tau, 1e-9 * context.body.height);
-}
-
-void RelateToCapsule(const Context& context, const PosedCapsule& capsule, HumanoidJoint parent,
-                     LimbPoint j, ImportanceTotal& importance, CapsuleRelation& relation) {
-  const Vec3& p = context.posed.point[Index(j)];
-  const double own =
-      context.settings.form.own_thickness ? context.constants.thickness[Index(j)] : 0.0;
-  relation.axial = ClosestOnSegment(p, capsule.start, capsule.end);
-  const Vec3 v = p - capsule.At(relation.axial);
-  const double reach = glm::length(v);
-  const Vec3 direction = reach > 1e-12 ? (1.0 / reach) * v : capsule.frame[1];
-  relation.direction_ls = direction * capsule.frame;
-  NormalizeDistance(context, PathBetween(parent, j), direction, reach, capsule.radius + own,
-                    relation.distance);
-  // The displacement from a capsule is always along its normal.
-  relation.importance = importance.Add(reach - capsule.radius - own, 1.0);
-}
 
 GroundRelation RelateToGround(const Context& context, LimbPoint j, ImportanceTotal& importance) {
   const double h_root = context.body.standing_root_height;
@@ -72,27 +47,23 @@ GroundRelation RelateToGround(const Context& context, LimbPoint j, ImportanceTot
   return relation;
 }
 
-/// A point against everything but trunk and head, whose importances are in `importance` already.
-/// Returns what all importances are to be multiplied by.
-double NormalizePoint(const Context& context, LimbPoint j, ImportanceTotal& importance,
-                      PointCoordinates& out) {
-  const NormalizeSettings& settings = context.settings;
+/// A point against the ground, with what it has to capsules; those importances and the meshes' are
+/// in `importance` already. Returns what all importances are to be multiplied by.
+double NormalizePoint(const Context& context, LimbPoint j, double mesh_importance_max,
+                      const std::array<CapsuleQuad, kOtherCapsuleCount>& capsule,
+                      ImportanceTotal& importance, PointCoordinates& out) {
   const Limb limb = LimbOf(j);
-  out.mesh_importance_max = importance.max;
-  for (std::size_t slot = 0; slot < kOtherSegmentCount; ++slot) {
-    const LimbSegment other = OtherSegment(limb, slot);
-    if (!IsArm(limb) && IsArm(LimbOf(other)) && !settings.form.legs_relate_to_arms) {
-      out.capsule[slot] = {};
-      continue;
+  const std::size_t group = GroupOf(j);
+  const std::size_t lane = LaneOf(j);
+  out.mesh_importance_max = mesh_importance_max;
+  for (std::size_t slot = 0; slot < kOtherCapsuleCount; ++slot) {
+    CapsuleRelation& relation = slot == kHandSlot ? out.hand : out.capsule[slot];
+    if (RelatesToCapsule(context.settings.form, group, slot)) {
+      relation = {capsule[slot].importance[lane], capsule[slot].axial[lane],
+                  capsule[slot].direction_ls.At(lane)};
+    } else {
+      relation = {};
     }
-    RelateToCapsule(context, context.posed.capsule[Index(other)], StartJoint(other), j, importance,
-                    out.capsule[slot]);
-  }
-  out.hand = {};
-  if (IsArm(limb) && settings.form.hand_points) {
-    const Limb other = Mirror(limb);
-    RelateToCapsule(context, context.posed.hand[Index(other)], JointsOf(other).end, j, importance,
-                    out.hand);
   }
   out.ground = {};
   if (!IsArm(limb) && j == EndPoint(limb)) out.ground = RelateToGround(context, j, importance);
@@ -111,7 +82,7 @@ double NormalizePoint(const Context& context, LimbPoint j, ImportanceTotal& impo
 
 /// `importance` are those of all triangles for the orienting point, `share` what they are to be
 /// multiplied by.
-void NormalizeNormal(const Context& context, Limb limb, const MeshImportances& importance,
+void NormalizeNormal(const Context& context, Limb limb, const TriangleImportances& importance,
                      std::size_t lane, double share, NormalCoordinates& out) {
   const BodySurface& surface = context.body.surface;
   const std::size_t side = IsLeft(limb) ? 0 : 1;
@@ -122,8 +93,7 @@ void NormalizeNormal(const Context& context, Limb limb, const MeshImportances& i
   for (std::size_t t = 0; t < kTriangleCount; t += kLaneCount<Lanes>) {
     const std::size_t first = t % 4;
     const TangentQuad& tangent = context.posed.tangent[t / 4];
-    const Lanes weight = {share * importance.triangle[t][lane],
-                          share * importance.triangle[t + 1][lane]};
+    const Lanes weight = {share * importance[t][lane], share * importance[t + 1][lane]};
     const auto part = [&](const QuadVectors& of) {
       return weight * Dot(both, Load<Lanes>(of, first));
     };
@@ -141,27 +111,32 @@ void NormalizeNormal(const Context& context, Limb limb, const MeshImportances& i
 /// The points of a group, and the normals that they orient.
 void NormalizeGroup(const Context& context, std::size_t group, EgocentricPose& out) {
   const NormalizeSettings& settings = context.settings;
-  const MeshQuery query{.constants = context.constants,
-                        .posed = context.posed,
-                        .group = group,
-                        .own_thickness = settings.form.own_thickness,
-                        .epsilon = context.scale * settings.surface_epsilon,
-                        .gamma_epsilon = context.scale * settings.gamma_epsilon,
-                        .softness = context.scale * settings.orthogonality_softness,
-                        .floor = settings.orthogonality_floor,
-                        .least_factor = 1e-9 * context.body.height};
-  MeshImportances importances;
-  RelateToMeshes(query, out.mesh[group], importances);
+  const GroupQuery query{.constants = context.constants,
+                         .posed = context.posed,
+                         .group = group,
+                         .own_thickness = settings.form.own_thickness,
+                         .epsilon = context.scale * settings.surface_epsilon,
+                         .gamma_epsilon = context.scale * settings.gamma_epsilon,
+                         .softness = context.scale * settings.orthogonality_softness,
+                         .floor = settings.orthogonality_floor,
+                         .least_factor = 1e-9 * context.body.height};
+  Importances importance;
+  TriangleImportances triangle;
+  RelateToMeshes(query, out.mesh[group], importance, triangle);
+  const Quad mesh_importance_max = importance.max;
+  std::array<CapsuleQuad, kOtherCapsuleCount> capsule;
+  RelateToCapsules(query, settings.form, capsule, out.capsule_distance[group], importance);
   Quad share{};
   for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
     const LimbPoint j = kPointGroups[group][lane];
     if (IsHandPoint(j) && !settings.form.hand_points) continue;
-    ImportanceTotal total{query.epsilon, query.gamma_epsilon, importances.sum[lane],
-                          importances.max[lane], importances.priority[lane]};
-    share[lane] = NormalizePoint(context, j, total, out.point[Index(j)]);
+    ImportanceTotal total{query.epsilon, query.gamma_epsilon, importance.sum[lane],
+                          importance.max[lane], importance.priority[lane]};
+    share[lane] =
+        NormalizePoint(context, j, mesh_importance_max[lane], capsule, total, out.point[Index(j)]);
     const Limb limb = LimbOf(j);
     if (j != OrientingPoint(out, limb)) continue;
-    NormalizeNormal(context, limb, importances, lane, share[lane], out.normal[Index(limb)]);
+    NormalizeNormal(context, limb, triangle, lane, share[lane], out.normal[Index(limb)]);
   }
   ScaleMeshCoordinates(share, group, out.mesh[group]);
 }

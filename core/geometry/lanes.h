@@ -108,6 +108,12 @@ struct QuadVectors {
     y[lane] = v.y;
     z[lane] = v.z;
   }
+  /// One in the even lanes, one in the odd.
+  void SetAlternating(const Vec3& even, const Vec3& odd) {
+    x = {even.x, odd.x, even.x, odd.x};
+    y = {even.y, odd.y, even.y, odd.y};
+    z = {even.z, odd.z, even.z, odd.z};
+  }
 };
 template <class V>
 EGO_LANES_INLINE LaneVectors<V> Load(const QuadVectors& quad, std::size_t first) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/egocentric/capsule_relations.h"
 #include "tests/support/postures.h"
 
 namespace ego::test {
@@ -10,10 +11,11 @@ namespace {
 
 struct Outcome {
   MeshCoordinates mesh;
-  MeshImportances importance;
+  Importances importance;
+  TriangleImportances triangle;
 };
 
-MeshQuery QueryOf(const BodyConstants& constants, const PosedBody& posed, std::size_t group) {
+GroupQuery QueryOf(const BodyConstants& constants, const PosedBody& posed, std::size_t group) {
   return {.constants = constants,
           .posed = posed,
           .group = group,
@@ -25,9 +27,9 @@ MeshQuery QueryOf(const BodyConstants& constants, const PosedBody& posed, std::s
           .least_factor = 1e-9};
 }
 
-Outcome Relate(const MeshQuery& query, LaneWidth lanes) {
+Outcome Relate(const GroupQuery& query, LaneWidth lanes) {
   Outcome outcome;
-  RelateToMeshes(query, outcome.mesh, outcome.importance, lanes);
+  RelateToMeshes(query, outcome.mesh, outcome.importance, outcome.triangle, lanes);
   return outcome;
 }
 
@@ -50,13 +52,13 @@ TEST(RelateToMeshes, GivesTheSameBitsInAnyWidth) {
   for (const std::string_view name : PostureNames()) {
     PlaceBody(body, constants, Posture(body, name), posed);
     for (std::size_t group = 0; group < kPointGroupCount; ++group) {
-      const MeshQuery query = QueryOf(constants, posed, group);
+      const GroupQuery query = QueryOf(constants, posed, group);
       const Outcome two = Relate(query, LaneWidth::kTwo);
       const Outcome fastest = Relate(query, FastestLanes());
       EXPECT_EQ(two.importance.sum, fastest.importance.sum);
       EXPECT_EQ(two.importance.max, fastest.importance.max);
       EXPECT_EQ(two.importance.priority, fastest.importance.priority);
-      EXPECT_EQ(two.importance.triangle, fastest.importance.triangle);
+      EXPECT_EQ(two.triangle, fastest.triangle);
       EXPECT_EQ(two.mesh.sample, fastest.mesh.sample);
       ExpectEqual(two.mesh.trunk, fastest.mesh.trunk, PathsFromTrunk(group).length);
       ExpectEqual(two.mesh.head, fastest.mesh.head, PathsFromHead(group).length);
@@ -74,6 +76,18 @@ Vec3 Displacement(const MeshRelations& relations, const MeshPaths& paths, std::s
   return sum;
 }
 
+/// tau of equation 5 for bones of these lengths, seen along a unit direction.
+double PathFactor(const KinematicPath& path, const Vec3& direction, const PosedBody& posed,
+                  const std::array<double, kBoneCount>& length) {
+  double tau = 0.0;
+  for (std::size_t i = 0; i < path.length; ++i) {
+    const std::size_t bone = path.bone[i];
+    tau +=
+        length[bone] * (kLeastCosine + std::abs(glm::dot(direction, posed.bone_direction[bone])));
+  }
+  return tau;
+}
+
 /// Equations 4 to 6 and appendix A written out for one point and one triangle after the other, read
 /// on a body with other bones and thicknesses.
 TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
@@ -89,7 +103,7 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
     const auto limb_point = static_cast<LimbPoint>(j);
     const std::size_t lane = LaneOf(limb_point);
     const std::size_t group = GroupOf(limb_point);
-    const MeshQuery query = QueryOf(constants, posed, group);
+    const GroupQuery query = QueryOf(constants, posed, group);
     const Outcome found = Relate(query, FastestLanes());
     const double thickness = constants.thickness[j];
     const double other_thickness = 1.7 * thickness;
@@ -108,19 +122,17 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
           Orthogonality(glm::dot(v, triangle.normal), reach, query.softness, query.floor);
       const double lambda = Proximity(reach - thickness, query.epsilon) * orthogonality;
       const KinematicPath& path = PathBetween(ParentJoint(t), limb_point);
-      PathCosines cosine{};
       const Vec3 direction = v / reach;
-      const double tau =
-          MeasurePath(path, direction, posed.bone_direction, constants.bone_length, cosine);
-      double length =
-          std::max(0.0, reach - thickness) / tau * PathFactor(path, cosine, other_length);
+      double length = std::max(0.0, reach - thickness) /
+                      PathFactor(path, direction, posed, constants.bone_length) *
+                      PathFactor(path, direction, posed, other_length);
       length += other_thickness * (thickness > 0.0 ? std::min(1.0, reach / thickness) : 1.0);
       wanted += lambda * (x + length * direction);
       sum += lambda;
       max = std::max(max, lambda);
       priority =
           std::max(priority, Proximity(reach - thickness, query.gamma_epsilon) * orthogonality);
-      EXPECT_NEAR(found.importance.triangle[t][lane], lambda, 1e-9 * lambda);
+      EXPECT_NEAR(found.triangle[t][lane], lambda, 1e-9 * lambda);
     }
     Vec3 given{0.0};
     for (std::size_t s = 0; s < kSampleCount; ++s) {
@@ -135,7 +147,102 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
     EXPECT_NEAR(found.importance.priority[lane], priority, 1e-9 * priority);
     EXPECT_NEAR(found.mesh.trunk.importance[lane] + found.mesh.head.importance[lane], sum,
                 1e-9 * sum);
-    EXPECT_LT(glm::distance(given, wanted), 1e-7 * sum);  // cosines are kept in single precision
+    EXPECT_LT(glm::distance(given, wanted), 1e-9 * sum);
+  }
+}
+
+struct CapsuleOutcome {
+  std::array<CapsuleQuad, kOtherCapsuleCount> relations{};
+  GroupDistances distances{};
+  Importances importance;
+};
+
+CapsuleOutcome RelateToCapsules(const GroupQuery& query, LaneWidth lanes = FastestLanes()) {
+  CapsuleOutcome outcome;
+  ego::RelateToCapsules(query, EgocentricForm{}, outcome.relations, outcome.distances,
+                        outcome.importance, lanes);
+  return outcome;
+}
+
+TEST(RelateToCapsules, GivesTheSameBitsInAnyWidth) {
+  const Body body = TemplateBody();
+  const BodyConstants constants(body);
+  PosedBody posed;
+  for (const std::string_view name : PostureNames()) {
+    PlaceBody(body, constants, Posture(body, name), posed);
+    for (std::size_t group = 0; group < kPointGroupCount; ++group) {
+      const CapsuleOutcome two =
+          RelateToCapsules(QueryOf(constants, posed, group), LaneWidth::kTwo);
+      const CapsuleOutcome fastest = RelateToCapsules(QueryOf(constants, posed, group));
+      EXPECT_EQ(two.importance.sum, fastest.importance.sum);
+      EXPECT_EQ(two.importance.max, fastest.importance.max);
+      EXPECT_EQ(two.importance.priority, fastest.importance.priority);
+      for (std::size_t slot = 0; slot < kOtherCapsuleCount; ++slot) {
+        EXPECT_EQ(two.relations[slot].importance, fastest.relations[slot].importance);
+        EXPECT_EQ(two.relations[slot].axial, fastest.relations[slot].axial);
+        ExpectEqual(two.relations[slot].direction_ls, fastest.relations[slot].direction_ls);
+        EXPECT_EQ(two.distances[slot].inside, fastest.distances[slot].inside);
+        EXPECT_EQ(two.distances[slot].gap, fastest.distances[slot].gap);
+        EXPECT_EQ(two.distances[slot].cosine, fastest.distances[slot].cosine);
+      }
+    }
+  }
+}
+
+/// Equations 4 to 6 written out for one point and one capsule after the other, read on the body
+/// itself and on one of other lengths.
+TEST(RelateToCapsules, AgreesWithTheEquationsCapsuleByCapsule) {
+  const Body body = TemplateBody();
+  const BodyConstants constants(body);
+  Body other = body;
+  BodyConstants other_constants = constants;
+  for (std::size_t k = 0; k < kBoneCount; ++k) {
+    other_constants.bone_length[k] *= 0.6 + 0.1 * static_cast<double>(k % 9);
+  }
+  for (double& radius : other.surface.limb_radius) radius *= 1.4;
+  for (HandSurface& hand : other.surface.hand) hand.half_thickness *= 0.8;
+  for (double& thickness : other_constants.thickness) thickness *= 1.7;
+  PosedBody posed;
+  PlaceBody(body, constants, Posture(body, PostureNames()[1]), posed);
+  for (std::size_t j = 0; j < kLimbPointCount; ++j) {
+    const auto limb_point = static_cast<LimbPoint>(j);
+    const Limb limb = LimbOf(limb_point);
+    const std::size_t lane = LaneOf(limb_point);
+    const std::size_t group = GroupOf(limb_point);
+    const CapsuleOutcome found = RelateToCapsules(QueryOf(constants, posed, group));
+    std::array<Quad, kOtherCapsuleCount> reach;
+    CapsuleReaches(other, other_constants, EgocentricForm{}, group, found.distances, reach);
+    double sum = 0.0;
+    for (std::size_t slot = 0; slot < kOtherCapsuleCount; ++slot) {
+      if (!RelatesToCapsule(EgocentricForm{}, group, slot)) {
+        EXPECT_EQ(reach[slot][lane], 0.0);
+        continue;
+      }
+      const bool hand = slot == kHandSlot;
+      const PosedCapsule& capsule =
+          hand ? posed.hand[Index(Mirror(limb))] : posed.capsule[Index(OtherSegment(limb, slot))];
+      const double t = ClosestOnSegment(posed.point[j], capsule.start, capsule.end);
+      const Vec3 away = posed.point[j] - capsule.At(t);
+      const double length = glm::length(away);
+      const double filled = capsule.radius + constants.thickness[j];
+      const double other_radius = hand ? other.surface.hand[Index(Mirror(limb))].half_thickness
+                                       : other.surface.limb_radius[Index(OtherSegment(limb, slot))];
+      const double other_filled = other_radius + other_constants.thickness[j];
+      const KinematicPath& path = PathBetween(
+          hand ? JointsOf(Mirror(limb)).end : StartJoint(OtherSegment(limb, slot)), limb_point);
+      const double wanted = other_filled * std::min(1.0, length / filled) +
+                            std::max(0.0, length - filled) /
+                                PathFactor(path, away / length, posed, constants.bone_length) *
+                                PathFactor(path, away / length, posed, other_constants.bone_length);
+      EXPECT_NEAR(reach[slot][lane], wanted, 1e-12);
+      const CapsuleQuad& relation = found.relations[slot];
+      EXPECT_NEAR(relation.axial[lane], t, 1e-12);
+      EXPECT_LT(glm::distance(capsule.frame * relation.direction_ls.At(lane), away / length),
+                1e-12);
+      EXPECT_NEAR(relation.importance[lane], Proximity(length - filled, 0.01), 1e-9);
+      sum += relation.importance[lane];
+    }
+    EXPECT_NEAR(found.importance.sum[lane], sum, 1e-9 * sum);
   }
 }
 
