@@ -4,20 +4,13 @@
 #include <array>
 
 #include "core/adapt/adapt_settings.h"
+#include "core/adapt/body_sum.h"
 #include "core/adapt/joint_target.h"
 #include "core/adapt/limb_ik.h"
 #include "core/egocentric/egocentric_pose.h"
 #include "core/egocentric/posed_body.h"
 
 namespace ego {
-
-/// Equation 2 over trunk and head: they stand still while the limbs are adapted, so their part of
-/// the sum is taken once.
-struct BodySum {
-  Vec3 position{0.0};       // sum of lambda-hat (x + v)
-  double importance = 0.0;  // sum of lambda-hat
-  Vec3 initial{0.0};  // arms: as position, trunk's and head's part brought out of the legs (6.1)
-};
 
 /// An avatar's posture while it is adapted: what the steps of Algorithm 1 hand on. Lives for one
 /// call of `Adapt` and refers to its inputs.
@@ -33,7 +26,7 @@ struct AdaptState {
   PosedBody posed;
   std::array<LimbChain, kLimbCount> chain;
   std::array<LimbPosture, kLimbCount> limb;
-  std::array<BodySum, kLimbPointCount> body_sum;
+  std::array<BodySum, kPointGroupCount> body_sum;  // by kPointGroups
   /// Length of every displacement from a capsule on this body (equation 5 reversed): the six of
   /// the other limbs by slot, then the other hand.
   std::array<std::array<double, kOtherCapsuleCount>, kLimbPointCount> capsule_reach{};

@@ -12,10 +12,6 @@
 namespace ego {
 namespace {
 
-double OwnThickness(const AdaptState& state, LimbPoint j) {
-  return state.egocentric.form.own_thickness ? state.constants.thickness[Index(j)] : 0.0;
-}
-
 /// From the end joint to a point of the hand, as the hand will end.
 Vec3 HandOffset(const AdaptState& state, LimbPoint j) {
   if (!IsHandPoint(j)) return Vec3{0.0};
@@ -54,30 +50,6 @@ class LegRegion {
   std::array<HalfSpace, 4> leg_;
   std::size_t count_ = 0;
 };
-
-/// Sum of lambda-hat (x + v) over one crude mesh (see MeshRelations) for the points of a group,
-/// those from `first` on; its samples are those from `begin` up to `end`.
-Lanes3 MeshSum(const AdaptState& state, std::size_t group, std::size_t first,
-               const MeshRelations& relations, const MeshPaths& paths, std::size_t begin,
-               std::size_t end) {
-  const MeshCoordinates& mesh = state.egocentric.mesh[group];
-  Lanes3 position{};
-  for (std::size_t s = begin; s < end; ++s) {
-    position += Load<Lanes>(mesh.sample[s], first) * Splat(state.posed.sample[s]);
-  }
-  const PointGroup& point = kPointGroups[group];
-  const Lanes thickness = {OwnThickness(state, point[first]),
-                           OwnThickness(state, point[first + 1])};
-  Lanes3 displacement = thickness * Load<Lanes>(relations.inside, first);
-  for (std::size_t i = 0; i < paths.length; ++i) {
-    const Lanes length = {state.constants.bone_length[paths.bone[i][first]],
-                          state.constants.bone_length[paths.bone[i][first + 1]]};
-    displacement += length * Load<Lanes>(relations.along[i], first);
-  }
-  const Mat3& hips = state.posed.hips;
-  return position + displacement.x * Splat(hips[0]) + displacement.y * Splat(hips[1]) +
-         displacement.z * Splat(hips[2]);
-}
 
 Vec3 PartnerEnd(const AdaptState& state, Limb limb) {
   return state.posed.point[Index(EndPoint(Mirror(limb)))];
@@ -127,40 +99,11 @@ Vec3 DenormalizeGround(const AdaptState& state, Limb leg) {
 
 void SumBody(AdaptState& state) {
   for (std::size_t group = 0; group < kPointGroupCount; ++group) {
-    const MeshCoordinates& mesh = state.egocentric.mesh[group];
-    for (std::size_t first = 0; first < kPointGroupSize; first += kLaneCount<Lanes>) {
-      if (IsHandPoint(kPointGroups[group][first]) && !state.egocentric.form.hand_points) continue;
-      const Lanes3 trunk =
-          MeshSum(state, group, first, mesh.trunk, PathsFromTrunk(group), 0, kTrunkSampleCount);
-      const Lanes3 head = MeshSum(state, group, first, mesh.head, PathsFromHead(group),
-                                  kTrunkSampleCount, kSampleCount);
-      for (std::size_t k = 0; k < kLaneCount<Lanes>; ++k) {
-        const double trunk_importance = mesh.trunk.importance[first + k];
-        const double head_importance = mesh.head.importance[first + k];
-        const LimbPoint j = kPointGroups[group][first + k];
-        BodySum& sum = state.body_sum[Index(j)];
-        sum = {trunk.At(k) + head.At(k), trunk_importance + head_importance, Vec3{0.0}};
-        if (!IsArm(LimbOf(j))) continue;
-        const LegRegion region(state, j);
-        const auto part = [&](const Vec3& position, double importance) {
-          return importance > 0.0 ? importance * region.Inside(position / importance) : Vec3{0.0};
-        };
-        sum.initial = part(trunk.At(k), trunk_importance) + part(head.At(k), head_importance);
-      }
-    }
+    state.body_sum[group] = SumOverBody(state.egocentric.mesh[group], state.constants, state.posed,
+                                        group, state.egocentric.form.own_thickness);
   }
   for (const Limb limb : kLimbs) {
-    const NormalCoordinates& normal = state.egocentric.normal[Index(limb)];
-    Lanes3 sum{};
-    for (std::size_t t = 0; t < kTriangleCount; t += kLaneCount<Lanes>) {
-      const std::size_t first = t % 4;
-      const TangentQuad& tangent = state.posed.tangent[t / 4];
-      const Lanes3 weight = Load<Lanes>(normal.triangle[t / 4], first);
-      sum += weight.x * Load<Lanes>(state.posed.triangle[t / 4].normal, first);
-      sum += weight.y * Load<Lanes>(tangent.along, first);
-      sum += weight.z * Load<Lanes>(tangent.third, first);
-    }
-    state.normal_sum[Index(limb)] = Sum(sum);
+    state.normal_sum[Index(limb)] = SumOfNormals(state.egocentric.normal[Index(limb)], state.posed);
   }
 }
 
@@ -202,8 +145,17 @@ LimbTargets InitialTargets(const AdaptState& state, Limb arm) {
   const auto target_of = [&](LimbPoint j) {
     const PointCoordinates& coordinates = state.egocentric.point[Index(j)];
     const LegRegion region(state, j);
-    Vec3 sum = state.body_sum[Index(j)].initial;
-    double importance = state.body_sum[Index(j)].importance;
+    const MeshCoordinates& mesh = state.egocentric.mesh[GroupOf(j)];
+    const BodySum& body = state.body_sum[GroupOf(j)];
+    const std::size_t lane = LaneOf(j);
+    Vec3 sum{0.0};
+    double importance = 0.0;
+    const auto add = [&](const Vec3& part, double share) {
+      if (share > 0.0) sum += share * region.Inside(part / share);
+      importance += share;
+    };
+    add(body.trunk.At(lane), mesh.trunk.importance[lane]);
+    add(body.head.At(lane), mesh.head.importance[lane]);
     for (std::size_t slot = 2; slot < kOtherSegmentCount; ++slot) {  // 0, 1: the other arm
       const LimbSegment other = OtherSegment(arm, slot);
       const CapsuleRelation& relation = coordinates.capsule[slot];

@@ -87,7 +87,9 @@ JointTarget MakeArmTarget(const AdaptState& state, std::span<const LimbPoint> po
 LinearTarget EvaluateOne(const AdaptState& state, Limb limb, const JointTarget& target) {
   Vec3 sum{0.0};
   for (std::size_t k = 0; k < target.point_count; ++k) {
-    sum += target.on_body[k] * state.body_sum[Index(target.point[k])].position;
+    const BodySum& body = state.body_sum[GroupOf(target.point[k])];
+    const std::size_t lane = LaneOf(target.point[k]);
+    sum += target.on_body[k] * (body.trunk.At(lane) + body.head.At(lane));
   }
   for (std::size_t k = 0; k < target.capsule_count; ++k) {
     const std::size_t slot = target.slot[k];

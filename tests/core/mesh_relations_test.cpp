@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/adapt/body_sum.h"
 #include "core/egocentric/capsule_relations.h"
 #include "tests/support/postures.h"
 
@@ -149,6 +150,51 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
                 1e-9 * sum);
     EXPECT_LT(glm::distance(given, wanted), 1e-9 * sum);
   }
+}
+
+TEST(SumOverBody, IsWhatTheCoefficientsSay) {
+  const Body body = TemplateBody();
+  const BodyConstants constants(body);
+  PosedBody posed;
+  PlaceBody(body, constants, Posture(body, PostureNames()[2]), posed);
+  for (std::size_t group = 0; group < kPointGroupCount; ++group) {
+    const Outcome found = Relate(QueryOf(constants, posed, group), FastestLanes());
+    const BodySum sum = SumOverBody(found.mesh, constants, posed, group, true);
+    const BodySum two = SumOverBody(found.mesh, constants, posed, group, true, LaneWidth::kTwo);
+    ExpectEqual(sum.trunk, two.trunk);
+    ExpectEqual(sum.head, two.head);
+    for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
+      Vec3 wanted{0.0};
+      for (std::size_t s = 0; s < kSampleCount; ++s) {
+        wanted += found.mesh.sample[s][lane] * posed.sample[s];
+      }
+      const double thickness = constants.thickness[Index(kPointGroups[group][lane])];
+      wanted += posed.hips * (Displacement(found.mesh.trunk, PathsFromTrunk(group), lane,
+                                           constants.bone_length, thickness) +
+                              Displacement(found.mesh.head, PathsFromHead(group), lane,
+                                           constants.bone_length, thickness));
+      const double scale = found.importance.sum[lane];
+      EXPECT_LT(glm::distance(sum.trunk.At(lane) + sum.head.At(lane), wanted), 1e-12 * scale);
+    }
+  }
+}
+
+TEST(SumOfNormals, IsWhatTheCoefficientsSay) {
+  const Body body = TemplateBody();
+  PosedBody posed;
+  PlaceBody(body, BodyConstants(body), Posture(body, PostureNames()[2]), posed);
+  NormalCoordinates normal;
+  Vec3 wanted{0.0};
+  for (std::size_t t = 0; t < kTriangleCount; ++t) {
+    const double k = static_cast<double>(t);
+    const Vec3 part{std::sin(k), std::cos(k), std::sin(3.0 * k)};
+    normal.triangle[t / 4].Set(t % 4, part);
+    wanted += part.x * posed.triangle[t / 4].normal.At(t % 4) +
+              part.y * posed.tangent[t / 4].along.At(t % 4) +
+              part.z * posed.tangent[t / 4].third.At(t % 4);
+  }
+  EXPECT_LT(glm::distance(SumOfNormals(normal, posed), wanted), 1e-12);
+  EXPECT_EQ(SumOfNormals(normal, posed, LaneWidth::kTwo), SumOfNormals(normal, posed));
 }
 
 struct CapsuleOutcome {
