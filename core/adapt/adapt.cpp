@@ -8,6 +8,7 @@
 #include "core/adapt/extremity.h"
 #include "core/adapt/spatial_order.h"
 #include "core/adapt/stance.h"
+#include "core/adapt/way_out.h"
 
 namespace ego {
 namespace {
@@ -46,9 +47,20 @@ void AdaptLimb(AdaptState& state, Limb limb, double w, bool with_planes) {
   state.Apply(limb, with_planes ? EnsureSpatialOrder(state, limb, attracted, w) : attracted);
 }
 
+/// Targets of the arms that lead through the trunk or head.
+void BringOutOfBody(const AdaptState& state, const std::array<Limb, 2>& arms,
+                    std::array<LimbTargets, 2>& targets) {
+  if (!state.egocentric.form.clearance || !state.egocentric.form.hand_points) return;
+  const BodyObstacles body(state.avatar, state.posed);
+  for (std::size_t k = 0; k < 2; ++k) {
+    targets[k].end = OutOfBody(state, body, arms[k], targets[k].end);
+  }
+}
+
 /// Both limbs of a pair from one state of the body, so that neither side is first.
 void AdaptPair(AdaptState& state, const std::array<Limb, 2>& pair, double w, bool with_planes) {
-  const std::array<LimbTargets, 2> targets = TargetsOfPair(state, pair[0]);
+  std::array<LimbTargets, 2> targets = TargetsOfPair(state, pair[0]);
+  if (IsArm(pair[0])) BringOutOfBody(state, pair, targets);
   std::array<LimbPosture, 2> posture =
       BlendedIk({TaskOf(state, pair[0], targets[0], w), TaskOf(state, pair[1], targets[1], w)});
   for (std::size_t k = 0; with_planes && k < 2; ++k) {

@@ -66,6 +66,12 @@ struct AdaptSettings {
   /// Steps of the last correction that keeps arms out of trunk and head and hands on their
   /// contacts. 0: off. Each costs some microseconds near the body.
   int clearance_steps = 3;
+  /// Steps after those that follow the hands' contacts alone. 0: what keeps the arm out of a thick
+  /// body takes hands off it; large: hands of short arms snap between places.
+  int contact_steps = 1;
+  /// Steps that bring targets of hands out of trunk and head before the arm reaches for them. 0:
+  /// arms that are short for the body reach through it.
+  int target_steps = 2;
   /// Metres to which clearance that the performer has is kept. Smaller: thick bodies are cut;
   /// larger: arms are pushed where the performer passes close by.
   double clearance_margin = 0.018;
@@ -94,6 +100,8 @@ struct AdaptSettings {
     paper.root_height_fade = 0.0;
     paper.stance_height = 0.0;
     paper.clearance_steps = 0;
+    paper.contact_steps = 0;
+    paper.target_steps = 0;
     return paper;
   }
 };

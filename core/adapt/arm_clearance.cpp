@@ -31,6 +31,10 @@ double Bounded(double x) { return 1.0 / (1.0 + x * x); }
 constexpr double kDecidedContact = 1.25;
 /// Cosine of both ways above which they begin to count as the same.
 constexpr double kSameWay = 0.5;
+/// Cosine of both ways from which on a contact counts whole from inside, and heights inside below
+/// which it does in any case.
+constexpr double kSameSide = 0.5;
+constexpr double kInside = 0.02;
 /// Length of a gradient above which one way begins to lead out: where faces that look different
 /// ways are equally near, it is short.
 constexpr double kOneWay = 0.8;
@@ -102,17 +106,20 @@ double Need(double clearance, double margin) {
   return clearance <= 0.0 ? clearance : margin * -std::expm1(-clearance / margin);
 }
 
-/// Whether the way out of trunk or head, `gradient`, is the performer's own: 0 to 1.
-double Decided(const AdaptState& state, const Clearance& performer, const Vec3& gradient) {
-  const double along = glm::dot(gradient, state.posed.hips * performer.direction_ls);
-  return Smoothstep((along - kSameWay) / (1.0 - kSameWay));
-}
+/// Whether a way out of trunk or head is the performer's own, `along` their cosine: 0 to 1.
+double Decided(double along) { return Smoothstep((along - kSameWay) / (1.0 - kSameWay)); }
 
 /// Share of what a contact wants, `wanted` in heights out of the obstacle, that is asked for.
 double ContactShare(double wanted, double decided) {
   const double bounded = Bounded(wanted / kFarContact);
   if (wanted <= 0.0) return bounded;
   return glm::mix(bounded * bounded, Bounded(wanted / (kDecidedContact * kFarContact)), decided);
+}
+
+/// Share of a contact whose point lies `wanted` heights inside: none where the nearest way leads
+/// out on another side than the performer's.
+double SameSide(double wanted, double along) {
+  return glm::mix(1.0, Smoothstep(along / kSameSide), Smoothstep(wanted / kInside));
 }
 
 /// Some samples of an arm in one ball, to leave out together what is far from all of them.
@@ -142,10 +149,10 @@ ArmSolve::Part PartOfOther(std::size_t obstacle) {
                                                : ArmSolve::Part::kUpperArm;
 }
 
-/// What one arm's samples want of the obstacles, as rows of `solve`. Returns the largest share of
-/// a contact.
+/// What one arm's samples, or its contacts alone, want of the obstacles, as rows of `solve`.
+/// Returns the largest share of a contact.
 double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, MeshMemory& memory,
-                 ArmSolve& solve) {
+                 bool contacts_alone, ArmSolve& solve) {
   ArmSamples samples;
   for (std::size_t s = 0; s < kClearanceSampleCount; ++s) {
     samples[s] = SampleOf(state.avatar, state.posed, arm, s);
@@ -167,7 +174,7 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
   const std::size_t count =
       state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
   double most_touching = 0.0;
-  for (std::size_t s = 0; s < count; ++s) {
+  for (std::size_t s = contacts_alone ? kFirstContactSample : 0; s < count; ++s) {
     const ArmSample& sample = samples[s];
     const ArmSolve::Point point{arm, PartOf(s), sample.center};
     const bool of_hand = s >= kFirstContactSample;
@@ -211,13 +218,16 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
             kContactDamping * touching / (1.0 - touching + kContactDamping / most_weight);
         const double wanted = clearance - now.distance;
         // Only where it really touches.
-        const double decided = o < kFirstCapsuleObstacle
-                                   ? touching * touching * memory.entry[s][o].one_way *
-                                         Decided(state, performer, now.gradient)
-                                   : 0.0;
-        ask(wanted * ContactShare(wanted / height, decided), pull);
+        double decided = 0.0;
+        double same_side = 1.0;
+        if (o < kFirstCapsuleObstacle) {
+          const double along = glm::dot(now.gradient, state.posed.hips * performer.direction_ls);
+          decided = touching * touching * memory.entry[s][o].one_way * Decided(along);
+          same_side = SameSide(wanted / height, along);
+        }
+        ask(wanted * ContactShare(wanted / height, decided), same_side * pull);
       }
-      if (now.distance >= most) continue;
+      if ((contacts_alone && o >= kFirstCapsuleObstacle) || now.distance >= most) continue;
       const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
       const double weight = performer.trust * Smoothstep(short_of / (0.04 * height)) *
                             Bounded(short_of / (kDeep * height));
@@ -242,11 +252,13 @@ void KeepArmsClear(AdaptState& state) {
   const BodyObstacles body(state.avatar, state.posed);
   std::array<MeshMemory, 2> memory;
   constexpr std::array<Limb, 2> kArms = {Limb::kLeftArm, Limb::kRightArm};
-  for (int step = 0; step < state.settings.clearance_steps; ++step) {
+  const int steps = state.settings.clearance_steps + state.settings.contact_steps;
+  for (int step = 0; step < steps; ++step) {
     ArmSolve solve(state);
     std::array<double, 2> touching;
     for (const Limb arm : kArms) {
-      touching[Index(arm)] = AskForArm(state, body, arm, memory[Index(arm)], solve);
+      touching[Index(arm)] = AskForArm(state, body, arm, memory[Index(arm)],
+                                       step >= state.settings.clearance_steps, solve);
     }
     if (solve.empty()) return;
     for (const Limb arm : kArms) solve.HoldWrist(arm, HoldOf(state, arm, touching[Index(arm)]));

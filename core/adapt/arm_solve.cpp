@@ -9,9 +9,10 @@
 namespace ego {
 namespace {
 
-constexpr double kArmDamping = 1.0;   // weight of a point at the arm's length
-constexpr double kHandDamping = 2.0;  // likewise at the hand's length
-constexpr double kArmStep = 0.15;     // radians a step can hardly exceed
+constexpr double kArmDamping = 1.0;    // weight of a point at the arm's length
+constexpr double kElbowDamping = 4.0;  // likewise; nearly straight arms flex fast
+constexpr double kHandDamping = 2.0;   // likewise at the hand's length
+constexpr double kArmStep = 0.15;      // radians a step can hardly exceed
 constexpr double kHandStep = 0.30;
 
 }  // namespace
@@ -55,9 +56,11 @@ ArmSolve::ArmSolve(const AdaptState& state)
   for (std::size_t a = 0; a < lever_.size(); ++a) {
     const double reach = lever_[a].chain->Reach();
     const double hand = lever_[a].hand_length;
-    for (std::size_t k = 0; k < kUnknowns; ++k) {
-      own_[a].Damp(k, k < 4 ? kArmDamping * reach * reach + 1e-12 : kHandDamping * hand * hand);
+    for (std::size_t k = 0; k < 3; ++k) {
+      own_[a].Damp(k, kArmDamping * reach * reach + 1e-12);
+      own_[a].Damp(4 + k, kHandDamping * hand * hand);
     }
+    own_[a].Damp(3, kElbowDamping * reach * reach + 1e-12);
   }
 }
 

@@ -98,6 +98,12 @@ struct EgocentricPlane {
 /// then its points of contact: wrist, palm, fingertip.
 inline constexpr std::size_t kClearanceSampleCount = 11;
 inline constexpr std::size_t kFirstContactSample = 8;
+inline constexpr std::size_t kContactCount = 3;
+constexpr LimbPoint ContactPoint(Limb arm, std::size_t contact) {
+  const std::array<LimbPoint, kContactCount> points = {EndPoint(arm), PalmPoint(arm),
+                                                       FingertipPoint(arm)};
+  return points[contact];
+}
 /// What they are kept clear of: trunk, head, the six capsules of the other limbs, the other hand.
 inline constexpr std::size_t kObstacleCount = 9;
 
