@@ -137,7 +137,7 @@ void RelateToCapsules(const GroupQuery& query, const EgocentricForm& form, Slots
   for (std::size_t b = 0; b < paths.bone_count; ++b) {
     bones.length[b] = Lengths(paths.bone[b], query.constants.bone_length);
     for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
-      bones.direction[b].Set(lane, query.posed.bone_direction[paths.bone[b][lane]]);
+      bones.direction[b].Set(lane, query.bone_direction[paths.bone[b][lane]]);
     }
   }
   QuadVectors points;

@@ -38,7 +38,7 @@ void BonesOf(const GroupQuery& query, const MeshPaths& paths, Bones& bones) {
     for (std::size_t lane = 0; lane < kPointGroupSize; ++lane) {
       const std::size_t bone = paths.bone[i][lane];
       const double length = query.constants.bone_length[bone];
-      bones.vector[i].Set(lane, length * query.posed.bone_direction[bone]);
+      bones.vector[i].Set(lane, length * query.bone_direction[bone]);
       bones.least[i][lane] = bones.least[i + 1][lane] + kLeastCosine * length;
       bones.per_length[i][lane] = length > 0.0 ? 1.0 / length : 0.0;
     }

@@ -14,6 +14,7 @@ namespace ego {
 struct GroupQuery {
   const BodyConstants& constants;
   const PosedBody& posed;
+  const BoneDirections& bone_direction;
   std::size_t group = 0;
   bool own_thickness = true;   // whether the points' own thickness fills the distance
   double epsilon = 0.0;        // the distance at which importances saturate

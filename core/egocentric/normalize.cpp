@@ -21,6 +21,7 @@ struct Context {
   const NormalizeSettings& settings;
   const BodyConstants& constants;
   const PosedBody& posed;
+  const BoneDirections bone_direction;
   double scale;  // height over 1.78 m: what the settings' lengths are multiplied by
 };
 
@@ -113,6 +114,7 @@ void NormalizeGroup(const Context& context, std::size_t group, EgocentricPose& o
   const NormalizeSettings& settings = context.settings;
   const GroupQuery query{.constants = context.constants,
                          .posed = context.posed,
+                         .bone_direction = context.bone_direction,
                          .group = group,
                          .own_thickness = settings.form.own_thickness,
                          .epsilon = context.scale * settings.surface_epsilon,
@@ -184,7 +186,8 @@ void Normalize(const Body& performer, const Pose& pose, const NormalizeSettings&
   const BodyConstants constants(performer);
   PosedBody posed;
   PlaceBody(performer, constants, pose, posed);
-  const Context context{performer, settings, constants, posed, performer.height / 1.78};
+  const Context context{
+      performer, settings, constants, posed, BoneDirectionsOf(posed), performer.height / 1.78};
 
   out.form = settings.form;
   out.rotation_ls = pose.rotation_ls;

@@ -242,16 +242,21 @@ void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pos
   posed.pose = ForwardKinematics(body.skeleton, pose);
   PlaceTriangles(body, constants, posed);
   for (const Limb limb : kLimbs) PlaceLimb(body, constants, limb, posed);
-  posed.bone_direction[0] = Vec3{0.0};
+}
+
+BoneDirections BoneDirectionsOf(const PosedBody& posed) {
+  BoneDirections direction;
+  direction[0] = Vec3{0.0};
   for (std::size_t j = 1; j < kJointCount; ++j) {
-    posed.bone_direction[j] = NormalizedOr(
+    direction[j] = NormalizedOr(
         posed.pose.position_ws[j] - posed.pose.position_ws[Index(kParent[j])], Vec3{0.0});
   }
   for (std::size_t k = 0; k < 4; ++k) {
     const auto point = static_cast<LimbPoint>(kLimbJointCount + k);
-    posed.bone_direction[kJointCount + k] =
+    direction[kJointCount + k] =
         NormalizedOr(posed.point[Index(point)] - posed.pose.Position(JointOf(point)), Vec3{0.0});
   }
+  return direction;
 }
 
 }  // namespace ego

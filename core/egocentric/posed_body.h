@@ -59,13 +59,16 @@ struct PosedBody {
   /// The hands as capsules from wrist to fingertip (palm and fingertip of one hand refer to the
   /// other's).
   std::array<PosedCapsule, 2> hand;
-  std::array<Vec3, kBoneCount> bone_direction;  // unit; zero for a bone without length
   std::array<Vec3, kLimbPointCount> point;
 };
 
 /// Everything in place.
 void PlaceBody(const Body& body, const BodyConstants& constants, const Pose& pose,
                PosedBody& posed);
+
+/// Directions of the bones that paths run along: unit vectors, zero for a bone without length.
+using BoneDirections = std::array<Vec3, kBoneCount>;
+BoneDirections BoneDirectionsOf(const PosedBody& posed);
 
 /// Everything moved without a turn.
 void MovePosedBody(const Vec3& by, PosedBody& posed);

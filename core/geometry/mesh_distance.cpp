@@ -144,8 +144,4 @@ Box Box::Of(std::span<const Vec3> points) {
   return box;
 }
 
-double Box::Distance(const Vec3& p) const {
-  return glm::length(glm::max(Vec3{0.0}, glm::max(low - p, p - high)));
-}
-
 }  // namespace ego

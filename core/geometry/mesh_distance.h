@@ -30,7 +30,9 @@ struct Box {
   Vec3 high{0.0};
   static Box Of(std::span<const Vec3> points);
   /// Never more than the distance to the mesh.
-  double Distance(const Vec3& p) const;
+  double Distance(const Vec3& p) const {
+    return glm::length(glm::max(Vec3{0.0}, glm::max(low - p, p - high)));
+  }
 };
 
 }  // namespace ego

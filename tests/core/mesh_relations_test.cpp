@@ -16,9 +16,22 @@ struct Outcome {
   TriangleImportances triangle;
 };
 
-GroupQuery QueryOf(const BodyConstants& constants, const PosedBody& posed, std::size_t group) {
-  return {.constants = constants,
-          .posed = posed,
+/// A body in place with what follows from it.
+struct PosedTemplate {
+  explicit PosedTemplate(std::string_view posture) : body(TemplateBody()), constants(body) {
+    PlaceBody(body, constants, Posture(body, posture), posed);
+    bone_direction = BoneDirectionsOf(posed);
+  }
+  Body body;
+  BodyConstants constants;
+  PosedBody posed;
+  BoneDirections bone_direction;
+};
+
+GroupQuery QueryOf(const PosedTemplate& placed, std::size_t group) {
+  return {.constants = placed.constants,
+          .posed = placed.posed,
+          .bone_direction = placed.bone_direction,
           .group = group,
           .own_thickness = true,
           .epsilon = 0.01,
@@ -47,13 +60,10 @@ void ExpectEqual(const MeshRelations& a, const MeshRelations& b, std::size_t len
 }
 
 TEST(RelateToMeshes, GivesTheSameBitsInAnyWidth) {
-  const Body body = TemplateBody();
-  const BodyConstants constants(body);
-  PosedBody posed;
   for (const std::string_view name : PostureNames()) {
-    PlaceBody(body, constants, Posture(body, name), posed);
+    const PosedTemplate placed(name);
     for (std::size_t group = 0; group < kPointGroupCount; ++group) {
-      const GroupQuery query = QueryOf(constants, posed, group);
+      const GroupQuery query = QueryOf(placed, group);
       const Outcome two = Relate(query, LaneWidth::kTwo);
       const Outcome fastest = Relate(query, FastestLanes());
       EXPECT_EQ(two.importance.sum, fastest.importance.sum);
@@ -78,13 +88,13 @@ Vec3 Displacement(const MeshRelations& relations, const MeshPaths& paths, std::s
 }
 
 /// tau of equation 5 for bones of these lengths, seen along a unit direction.
-double PathFactor(const KinematicPath& path, const Vec3& direction, const PosedBody& posed,
+double PathFactor(const KinematicPath& path, const Vec3& direction,
+                  const BoneDirections& bone_direction,
                   const std::array<double, kBoneCount>& length) {
   double tau = 0.0;
   for (std::size_t i = 0; i < path.length; ++i) {
     const std::size_t bone = path.bone[i];
-    tau +=
-        length[bone] * (kLeastCosine + std::abs(glm::dot(direction, posed.bone_direction[bone])));
+    tau += length[bone] * (kLeastCosine + std::abs(glm::dot(direction, bone_direction[bone])));
   }
   return tau;
 }
@@ -92,19 +102,17 @@ double PathFactor(const KinematicPath& path, const Vec3& direction, const PosedB
 /// Equations 4 to 6 and appendix A written out for one point and one triangle after the other, read
 /// on a body with other bones and thicknesses.
 TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
-  const Body body = TemplateBody();
-  const BodyConstants constants(body);
+  const PosedTemplate placed(PostureNames()[0]);
+  const auto& [body, constants, posed, bone_direction] = placed;
   std::array<double, kBoneCount> other_length = constants.bone_length;
   for (std::size_t k = 0; k < kBoneCount; ++k) {
     other_length[k] *= 0.6 + 0.1 * static_cast<double>(k % 9);
   }
-  PosedBody posed;
-  PlaceBody(body, constants, Posture(body, PostureNames()[0]), posed);
   for (std::size_t j = 0; j < kLimbPointCount; ++j) {
     const auto limb_point = static_cast<LimbPoint>(j);
     const std::size_t lane = LaneOf(limb_point);
     const std::size_t group = GroupOf(limb_point);
-    const GroupQuery query = QueryOf(constants, posed, group);
+    const GroupQuery query = QueryOf(placed, group);
     const Outcome found = Relate(query, FastestLanes());
     const double thickness = constants.thickness[j];
     const double other_thickness = 1.7 * thickness;
@@ -125,8 +133,8 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
       const KinematicPath& path = PathBetween(ParentJoint(t), limb_point);
       const Vec3 direction = v / reach;
       double length = std::max(0.0, reach - thickness) /
-                      PathFactor(path, direction, posed, constants.bone_length) *
-                      PathFactor(path, direction, posed, other_length);
+                      PathFactor(path, direction, bone_direction, constants.bone_length) *
+                      PathFactor(path, direction, bone_direction, other_length);
       length += other_thickness * (thickness > 0.0 ? std::min(1.0, reach / thickness) : 1.0);
       wanted += lambda * (x + length * direction);
       sum += lambda;
@@ -153,12 +161,10 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
 }
 
 TEST(SumOverBody, IsWhatTheCoefficientsSay) {
-  const Body body = TemplateBody();
-  const BodyConstants constants(body);
-  PosedBody posed;
-  PlaceBody(body, constants, Posture(body, PostureNames()[2]), posed);
+  const PosedTemplate placed(PostureNames()[2]);
+  const auto& [body, constants, posed, bone_direction] = placed;
   for (std::size_t group = 0; group < kPointGroupCount; ++group) {
-    const Outcome found = Relate(QueryOf(constants, posed, group), FastestLanes());
+    const Outcome found = Relate(QueryOf(placed, group), FastestLanes());
     const BodySum sum = SumOverBody(found.mesh, constants, posed, group, true);
     const BodySum two = SumOverBody(found.mesh, constants, posed, group, true, LaneWidth::kTwo);
     ExpectEqual(sum.trunk, two.trunk);
@@ -211,15 +217,11 @@ CapsuleOutcome RelateToCapsules(const GroupQuery& query, LaneWidth lanes = Faste
 }
 
 TEST(RelateToCapsules, GivesTheSameBitsInAnyWidth) {
-  const Body body = TemplateBody();
-  const BodyConstants constants(body);
-  PosedBody posed;
   for (const std::string_view name : PostureNames()) {
-    PlaceBody(body, constants, Posture(body, name), posed);
+    const PosedTemplate placed(name);
     for (std::size_t group = 0; group < kPointGroupCount; ++group) {
-      const CapsuleOutcome two =
-          RelateToCapsules(QueryOf(constants, posed, group), LaneWidth::kTwo);
-      const CapsuleOutcome fastest = RelateToCapsules(QueryOf(constants, posed, group));
+      const CapsuleOutcome two = RelateToCapsules(QueryOf(placed, group), LaneWidth::kTwo);
+      const CapsuleOutcome fastest = RelateToCapsules(QueryOf(placed, group));
       EXPECT_EQ(two.importance.sum, fastest.importance.sum);
       EXPECT_EQ(two.importance.max, fastest.importance.max);
       EXPECT_EQ(two.importance.priority, fastest.importance.priority);
@@ -238,8 +240,8 @@ TEST(RelateToCapsules, GivesTheSameBitsInAnyWidth) {
 /// Equations 4 to 6 written out for one point and one capsule after the other, read on the body
 /// itself and on one of other lengths.
 TEST(RelateToCapsules, AgreesWithTheEquationsCapsuleByCapsule) {
-  const Body body = TemplateBody();
-  const BodyConstants constants(body);
+  const PosedTemplate placed(PostureNames()[1]);
+  const auto& [body, constants, posed, bone_direction] = placed;
   Body other = body;
   BodyConstants other_constants = constants;
   for (std::size_t k = 0; k < kBoneCount; ++k) {
@@ -248,14 +250,12 @@ TEST(RelateToCapsules, AgreesWithTheEquationsCapsuleByCapsule) {
   for (double& radius : other.surface.limb_radius) radius *= 1.4;
   for (HandSurface& hand : other.surface.hand) hand.half_thickness *= 0.8;
   for (double& thickness : other_constants.thickness) thickness *= 1.7;
-  PosedBody posed;
-  PlaceBody(body, constants, Posture(body, PostureNames()[1]), posed);
   for (std::size_t j = 0; j < kLimbPointCount; ++j) {
     const auto limb_point = static_cast<LimbPoint>(j);
     const Limb limb = LimbOf(limb_point);
     const std::size_t lane = LaneOf(limb_point);
     const std::size_t group = GroupOf(limb_point);
-    const CapsuleOutcome found = RelateToCapsules(QueryOf(constants, posed, group));
+    const CapsuleOutcome found = RelateToCapsules(QueryOf(placed, group));
     std::array<Quad, kOtherCapsuleCount> reach;
     CapsuleReaches(other, other_constants, EgocentricForm{}, group, found.distances, reach);
     double sum = 0.0;
@@ -276,10 +276,11 @@ TEST(RelateToCapsules, AgreesWithTheEquationsCapsuleByCapsule) {
       const double other_filled = other_radius + other_constants.thickness[j];
       const KinematicPath& path = PathBetween(
           hand ? JointsOf(Mirror(limb)).end : StartJoint(OtherSegment(limb, slot)), limb_point);
-      const double wanted = other_filled * std::min(1.0, length / filled) +
-                            std::max(0.0, length - filled) /
-                                PathFactor(path, away / length, posed, constants.bone_length) *
-                                PathFactor(path, away / length, posed, other_constants.bone_length);
+      const double wanted =
+          other_filled * std::min(1.0, length / filled) +
+          std::max(0.0, length - filled) /
+              PathFactor(path, away / length, bone_direction, constants.bone_length) *
+              PathFactor(path, away / length, bone_direction, other_constants.bone_length);
       EXPECT_NEAR(reach[slot][lane], wanted, 1e-12);
       const CapsuleQuad& relation = found.relations[slot];
       EXPECT_NEAR(relation.axial[lane], t, 1e-12);
