@@ -314,6 +314,7 @@ void MotionPlayer::ClearElbows() {
   constexpr double kMargin = 0.012;
   constexpr double kTurn = 8.0;  // degrees
   constexpr int kTurns = 10;
+  std::array<EndGoal, 2> written_first;
   std::array<EndGoal, 2> written_before;
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     Key& key = keys_[k];
@@ -329,7 +330,10 @@ void MotionPlayer::ClearElbows() {
       EndGoal& goal = key.posture.hand[side];
       const EndGoal written = goal;
       const ModelPose model = ForwardKinematics(figure_.body().skeleton, pose);
-      if (k > 0 && written == written_before[side]) {
+      if (k == 0) written_first[side] = written;
+      if (k > 0 && k + 1 == keys_.size() && written == written_first[side]) {
+        goal.pole = keys_[0].posture.hand[side].pole;  // ends in the stance it began in
+      } else if (k > 0 && written == written_before[side]) {
         goal.pole = keys_[k - 1].posture.hand[side].pole;  // a hold stays one
       } else {
         const ArmTarget target = ArmAt(span, side, model);

@@ -29,23 +29,34 @@ std::vector<double> Planes(double low, double high, const std::function<double(d
   return planes;
 }
 
-/// Cells of about one part in 76 of the height, finer in the hands and the head,
-/// finer for thin shins: the lattice tapers along the limbs and above the neck.
+/// Cells of about one part in 76 of the height, larger for the stout, finer in the head, for thin
+/// shins and forearms, and across the hands, where fingers lie close: the lattice tapers along the
+/// limbs and above the neck.
 SampleLattice LatticeOf(const PersonShape& shape) {
   const PersonParameters& m = shape.parameters();
-  const double cell = m.height / 76.0;
+  const double cell = std::sqrt(m.height / 76.0 *
+                                std::max(m.height / 76.0, (m.chest_width + m.waist_width) / 27.0));
   const Vec3 wrist = shape.Joint(J::kLeftHand);
-  const double hand_fine = std::min(1.0, 0.035 * m.hand_length / cell);
+  const double hand_fine = std::min(1.0, 0.021 * m.hand_length / cell);
+  const double hand_along = std::min(1.0, 0.032 * m.hand_length / cell);
   const double head_fine = std::min(1.0, 0.070 * m.head_height / cell);
   const double neck = shape.Joint(J::kNeck).y;
   const double face = shape.ChinHeight() + 0.15 * m.head_height;
   const double beside = std::max(0.5 * m.shoulder_width, 0.6 * m.head_width / head_fine);
-  // Thin forearms get the denser lattice from the elbow on.
   const double forearm = wrist.x - shape.Joint(J::kLeftLowerArm).x;
-  const double taper = m.lower_arm_radius < 2.2 * cell ? 1.2 * forearm : 0.9 * m.hand_length;
+  // Out from here there is only arm.
+  const double armpit = std::max({shape.Joint(J::kLeftUpperArm).x, 0.75 * m.head_width,
+                                  0.6 * m.waist_width, 0.6 * m.hips_width});
+  const double forearm_fine = std::clamp(m.lower_arm_radius / (2.4 * cell), hand_fine, 1.0);
+  const auto on_hand = [=](double x) {
+    return SmoothStep(wrist.x - 0.45 * m.hand_length, wrist.x + 0.30 * m.hand_length, std::abs(x));
+  };
+  // Along the arm, and across it.
+  const auto along_scale = [=](double x) { return glm::mix(1.0, hand_along, on_hand(x)); };
   const auto hand_scale = [=](double x) {
-    return 1.0 + (hand_fine - 1.0) *
-                     SmoothStep(wrist.x - taper, wrist.x - 0.05 * m.hand_length, std::abs(x));
+    const double lower =
+        SmoothStep(armpit, std::max(armpit, wrist.x - forearm) + 0.2 * forearm, std::abs(x));
+    return glm::mix(glm::mix(1.0, forearm_fine, lower), hand_fine, on_hand(x));
   };
   const auto head_scale = [=](double x, double y) {
     const double above = SmoothStep(neck, face, y);
@@ -55,12 +66,14 @@ SampleLattice LatticeOf(const PersonShape& shape) {
   const double knee = shape.Joint(J::kLeftLowerLeg).y;
   const double leg_fine = std::clamp(0.42 * m.lower_leg_radius / cell, 0.45, 1.0);
   const auto leg_scale = [=](double y) {
-    return leg_fine + (1.0 - leg_fine) * SmoothStep(knee, knee + 0.3 * (wrist.y - knee), y);
+    const double above = SmoothStep(knee, knee + 0.3 * (wrist.y - knee), y);
+    const double below = 1.0 - SmoothStep(1.0 * m.ankle_height, 2.6 * m.ankle_height, y);
+    return glm::mix(leg_fine, 1.0, std::max(above, below));
   };
 
   SampleLattice lattice;
   const std::vector<double> half =
-      Planes(0.0, wrist.x + 1.1 * m.hand_length, [&](double x) { return cell * hand_scale(x); });
+      Planes(0.0, wrist.x + 1.1 * m.hand_length, [&](double x) { return cell * along_scale(x); });
   for (std::size_t i = half.size() - 1; i > 0; --i) lattice.x.push_back(-half[i]);
   lattice.x.insert(lattice.x.end(), half.begin(), half.end());
   lattice.y = Planes(-2.37 * cell, m.height + 2.0 * cell, [&](double y) {

@@ -35,6 +35,9 @@ std::string FingerJointName(bool left, std::size_t joint);
 /// are thinner than they are, so that a coarse lattice can tell them apart.
 double Distance(const Vec3& q, double leaner = 0.0);
 
+/// How long an edge of the mesh may be there, so that finger tips are round, hand lengths.
+double LongestEdge(const Vec3& q);
+
 /// How much of a point of the hand each finger joint carries; what is left is the hand joint's.
 std::array<double, kFingerJointCount> FingerShares(const Vec3& q);
 

@@ -315,10 +315,10 @@ double PersonShape::LongestEdge(const Vec3& p) const {
   const double cuff = CuffReach();
   if (std::abs(q.x - cuff + 0.5 * kTrimWidth * m.height) < 0.9 * kTrimWidth * m.height ||
       (q.y > Joint(J::kNeck).y - 0.2 * TrunkLength() && Neck(p) < 0.05 * TrunkLength())) {
-    return 1.45 * kTrimWidth * m.height;
+    return 1.9 * kTrimWidth * m.height;
   }
   const Vec3 from_wrist = (q - Joint(J::kLeftHand)) / m.hand_length;
-  if (from_wrist.x > 0.0) return 0.08 * m.hand_length;
+  if (from_wrist.x > 0.0) return hand::LongestEdge(from_wrist) * m.hand_length;
   if (q.y > ChinHeight() - 0.02 * m.head_height && q.x < m.head_width) {
     return head_.LongestEdge(p);
   }

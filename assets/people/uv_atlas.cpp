@@ -109,8 +109,8 @@ std::vector<std::uint32_t> Ways(std::span<const Vec3> positions,
                                 std::span<const Triangle> triangles,
                                 std::span<const std::uint16_t> piece,
                                 std::span<const Cylinder> cylinders) {
-  constexpr double kEnough = 0.45;
-  constexpr double kLeast = 0.3;  // that a vote may bring
+  constexpr double kEnough = 0.3;
+  constexpr double kLeast = 0.2;  // that a vote may bring
   std::vector<Vec3> normal;
   std::vector<Vec3> middle;
   std::vector<std::uint32_t> way;
