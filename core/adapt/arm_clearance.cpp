@@ -137,6 +137,35 @@ struct SampleBall {
   double reach = 0.0;
 };
 
+/// Upper arm and elbow, forearm, points of contact: where their samples begin.
+constexpr std::size_t kPartCount = 3;
+constexpr std::array<std::size_t, kPartCount + 1> kPartBegin = {0, 3, kFirstContactSample,
+                                                                kClearanceSampleCount};
+
+/// From which obstacles all samples of a part are too far to be asked anything, or asked to touch.
+std::array<std::array<bool, kObstacleCount>, kPartCount> FarFrom(
+    const AdaptState& state, const BodyObstacles& body, const CapsuleObstacles& capsules, Limb arm,
+    const ArmSamples& samples, double margin, double fade) {
+  const double height = state.avatar.height;
+  std::array<std::array<bool, kObstacleCount>, kPartCount> far;
+  for (std::size_t part = 0; part < kPartCount; ++part) {
+    const SampleBall ball(samples, kPartBegin[part], kPartBegin[part + 1]);
+    for (std::size_t o = 0; o < kObstacleCount; ++o) {
+      far[part][o] = o < kFirstCapsuleObstacle
+                         ? body.LowerBound(o, {ball.center, ball.reach}) > margin + 0.01 * height
+                         : ball.IsFartherThan(margin + 2.0 * Nudge(state),
+                                              capsules[o - kFirstCapsuleObstacle]);
+    }
+  }
+  for (std::size_t s = kFirstContactSample; s < kClearanceSampleCount; ++s) {
+    for (std::size_t o = 0; o < kObstacleCount; ++o) {
+      const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
+      if (performer.known && performer.distance * height < fade) far[2][o] = false;
+    }
+  }
+  return far;
+}
+
 ArmSolve::Part PartOf(std::size_t sample) {
   if (sample < 3) return ArmSolve::Part::kUpperArm;
   return sample <= kFirstContactSample ? ArmSolve::Part::kForearm : ArmSolve::Part::kHand;
@@ -161,16 +190,8 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
   const double margin = state.scale * state.settings.clearance_margin;
   const double fade = state.scale * state.settings.contact_fade;
   const CapsuleObstacles capsules = CapsuleObstaclesOf(state.posed, arm);
-  // Upper arm and elbow, then forearm and hand.
-  const std::array<SampleBall, 2> ball = {SampleBall(samples, 0, 3),
-                                          SampleBall(samples, 3, kClearanceSampleCount)};
-  std::array<std::array<bool, kObstacleCount>, 2> is_far{};
-  for (std::size_t b = 0; b < ball.size(); ++b) {
-    for (std::size_t o = kFirstCapsuleObstacle; o < kObstacleCount; ++o) {
-      is_far[b][o] =
-          ball[b].IsFartherThan(margin + 2.0 * Nudge(state), capsules[o - kFirstCapsuleObstacle]);
-    }
-  }
+  const std::array<std::array<bool, kObstacleCount>, kPartCount> is_far =
+      FarFrom(state, body, capsules, arm, samples, margin, fade);
   const std::size_t count =
       state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
   double most_touching = 0.0;
@@ -179,7 +200,7 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
     const ArmSolve::Point point{arm, PartOf(s), sample.center};
     const bool of_hand = s >= kFirstContactSample;
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
-      if (!of_hand && is_far[s < 3 ? 0 : 1][o]) continue;
+      if (is_far[s < 3 ? 0 : of_hand ? 2 : 1][o]) continue;
       const Clearance& performer = state.egocentric.clearance[Index(arm)][s][o];
       const double clearance = performer.distance * height;
       const bool other_hand = o == kObstacleCount - 1;
