@@ -226,7 +226,6 @@ void MovePosedBody(const Vec3& by, PosedBody& posed) {
   };
   for (TriangleQuad& triangle : posed.triangle) {
     move_four(triangle.a);
-    move_four(triangle.center);
   }
   const auto move = [&](PosedCapsule& capsule) {
     capsule.start += by;

@@ -10,44 +10,7 @@
 namespace ego {
 namespace {
 
-/// Triangles this many times farther (as squares, with the smoothing) than the nearest weigh less
-/// than 1.6e-5 of it and are left out: the distance changes by micrometres.
-constexpr double kNegligible = 16.0;
-
 using Mesh = std::span<const TriangleQuad>;
-
-/// The triangle whose centroid is nearest to `p`; of equally near ones of a lane the first.
-template <class V>
-EGO_LANES_INLINE std::size_t NearestCentroid(Mesh mesh, const LaneVectors<V>& point) {
-  Quad nearest;
-  Quad least;
-  for (std::size_t first = 0; first < 4; first += kLaneCount<V>) {
-    V square_least = Splat<V>(std::numeric_limits<double>::max());
-    V index{};
-    for (std::size_t q = 0; q < mesh.size(); ++q) {
-      const LaneVectors<V> d = point - Load<V>(mesh[q].center, first);
-      const V square = Dot(d, d);
-      index = Select<V>(square < square_least, Splat<V>(static_cast<double>(q)), index);
-      square_least = Min<V>(square_least, square);
-    }
-    Store<V>(index, nearest, first);
-    Store<V>(square_least, least, first);
-  }
-  std::size_t lane = 0;
-  for (std::size_t k = 1; k < 4; ++k) {
-    if (least[k] < least[lane]) lane = k;
-  }
-  return 4 * static_cast<std::size_t>(nearest[lane]) + lane;
-}
-
-/// Distance from a point beyond which no triangle counts.
-template <class V>
-EGO_LANES_INLINE double Horizon(Mesh mesh, const LaneVectors<V>& point, double e2) {
-  const std::size_t nearest = NearestCentroid<V>(mesh, point);
-  const std::size_t first = nearest % 4 / kLaneCount<V> * kLaneCount<V>;
-  const LaneVectors<V> away = ClosestOnTriangles(Load<V>(mesh[nearest / 4], first), point).away;
-  return std::sqrt(kNegligible * (Dot(away, away)[nearest % 4 - first] + e2));
-}
 
 /// Weighted sums over triangles, by their place among four.
 struct Sums {
@@ -59,10 +22,10 @@ struct Sums {
 };
 
 template <class V>
-EGO_LANES_INLINE void SumTriangles(Mesh mesh, const LaneVectors<V>& point, std::size_t first,
-                                   double square_epsilon, double far, Sums& sums) {
+EGO_LANES_INLINE void SumTriangles(Mesh mesh, const Vec3& p, std::size_t first,
+                                   double square_epsilon, Sums& sums) {
+  const LaneVectors<V> point = Splat<V>(p);
   const V e2 = Splat<V>(square_epsilon);
-  const V horizon = Splat<V>(far);
   V weights{};
   V planes{};
   V squares{};
@@ -70,19 +33,13 @@ EGO_LANES_INLINE void SumTriangles(Mesh mesh, const LaneVectors<V>& point, std::
   LaneVectors<V> aways{};
   for (const TriangleQuad& quad : mesh) {
     const TriangleLanes<V> triangle = Load<V>(quad, first);
-    const LaneVectors<V> from_center = point - triangle.center;
-    const V bound = horizon + triangle.reach;
-    const V height = Dot(triangle.normal, from_center);
-    const LaneMask<V> counts =
-        (Dot(from_center, from_center) <= bound * bound) & (Abs<V>(height) <= horizon);
-    if (!Any<V>(counts)) continue;
     const LaneVectors<V> away = ClosestOnTriangles(triangle, point).away;
     const V square = Dot(away, away);
     const V ratio = e2 / (square + e2);
     const V ratio2 = ratio * ratio;
-    const V weight = Select<V>(counts, triangle.area * (ratio2 * ratio2), V{});
+    const V weight = triangle.area * (ratio2 * ratio2);
     weights += weight;
-    planes += weight * height;
+    planes += weight * Dot(triangle.normal, point - triangle.a);
     squares += weight * square;
     normals += weight * triangle.normal;
     aways += weight * away;
@@ -95,17 +52,13 @@ EGO_LANES_INLINE void SumTriangles(Mesh mesh, const LaneVectors<V>& point, std::
 }
 
 void SumInTwoLanes(Mesh mesh, const Vec3& p, double e2, Sums& sums) {
-  const Lanes3 point = Splat<Lanes>(p);
-  const double horizon = Horizon<Lanes>(mesh, point, e2);
-  SumTriangles<Lanes>(mesh, point, 0, e2, horizon, sums);
-  SumTriangles<Lanes>(mesh, point, 2, e2, horizon, sums);
+  SumTriangles<Lanes>(mesh, p, 0, e2, sums);
+  SumTriangles<Lanes>(mesh, p, 2, e2, sums);
 }
 
 EGO_WIDE_LANES_TARGET
 void SumInFourLanes(Mesh mesh, const Vec3& p, double e2, Sums& sums) {
-  const LaneVectors<WideLanes> point = Splat<WideLanes>(p);
-  const double horizon = Horizon<WideLanes>(mesh, point, e2);
-  SumTriangles<WideLanes>(mesh, point, 0, e2, horizon, sums);
+  SumTriangles<WideLanes>(mesh, p, 0, e2, sums);
 }
 
 double Total(const Quad& four) { return (four[0] + four[1]) + (four[2] + four[3]); }

@@ -13,8 +13,6 @@ struct TriangleFields {
   Vectors ab;
   Vectors ac;
   Vectors normal;  // unit, right-handed about a, b, c; zero for a triangle without area
-  Vectors center;  // centroid
-  Number reach;    // from there to the farthest corner
   Number area;
   // Products of the edges, and one over those that are divided by (0 for an edge without length
   // and for a triangle without area).
@@ -44,11 +42,6 @@ EGO_LANES_INLINE TriangleLanes<V> MakeTriangles(const LaneVectors<V>& a, const L
   t.a = a;
   t.ab = b - a;
   t.ac = c - a;
-  t.center = Splat<V>(1.0 / 3.0) * (a + b + c);
-  const LaneVectors<V> to_a = a - t.center;
-  const LaneVectors<V> to_b = b - t.center;
-  const LaneVectors<V> to_c = c - t.center;
-  t.reach = Sqrt<V>(Max<V>(Max<V>(Dot(to_a, to_a), Dot(to_b, to_b)), Dot(to_c, to_c)));
   const LaneVectors<V> normal = Cross(t.ab, t.ac);
   const V square = Dot(normal, normal);
   const V length = Sqrt<V>(square);
@@ -70,12 +63,11 @@ TriangleQuad MakeTriangleQuad(const QuadVectors& a, const QuadVectors& b, const 
 
 template <class V>
 EGO_LANES_INLINE TriangleLanes<V> Load(const TriangleQuad& quad, std::size_t first) {
-  return {
-      Load<V>(quad.a, first),      Load<V>(quad.ab, first),     Load<V>(quad.ac, first),
-      Load<V>(quad.normal, first), Load<V>(quad.center, first), Load<V>(quad.reach, first),
-      Load<V>(quad.area, first),   Load<V>(quad.ab_ab, first),  Load<V>(quad.ab_ac, first),
-      Load<V>(quad.ac_ac, first),  Load<V>(quad.bc_bc, first),  Load<V>(quad.per_ab, first),
-      Load<V>(quad.per_ac, first), Load<V>(quad.per_bc, first), Load<V>(quad.per_square, first)};
+  return {Load<V>(quad.a, first),         Load<V>(quad.ab, first),     Load<V>(quad.ac, first),
+          Load<V>(quad.normal, first),    Load<V>(quad.area, first),   Load<V>(quad.ab_ab, first),
+          Load<V>(quad.ab_ac, first),     Load<V>(quad.ac_ac, first),  Load<V>(quad.bc_bc, first),
+          Load<V>(quad.per_ab, first),    Load<V>(quad.per_ac, first), Load<V>(quad.per_bc, first),
+          Load<V>(quad.per_square, first)};
 }
 template <class V>
 EGO_LANES_INLINE void Store(const TriangleLanes<V>& t, TriangleQuad& quad, std::size_t first) {
@@ -83,8 +75,6 @@ EGO_LANES_INLINE void Store(const TriangleLanes<V>& t, TriangleQuad& quad, std::
   Store<V>(t.ab, quad.ab, first);
   Store<V>(t.ac, quad.ac, first);
   Store<V>(t.normal, quad.normal, first);
-  Store<V>(t.center, quad.center, first);
-  Store<V>(t.reach, quad.reach, first);
   Store<V>(t.area, quad.area, first);
   Store<V>(t.ab_ab, quad.ab_ab, first);
   Store<V>(t.ab_ac, quad.ab_ac, first);
@@ -98,11 +88,11 @@ EGO_LANES_INLINE void Store(const TriangleLanes<V>& t, TriangleQuad& quad, std::
 /// One of four in all lanes.
 template <class V>
 EGO_LANES_INLINE TriangleLanes<V> Splat(const TriangleQuad& quad, std::size_t k) {
-  return {Splat<V>(quad.a, k),      Splat<V>(quad.ab, k),     Splat<V>(quad.ac, k),
-          Splat<V>(quad.normal, k), Splat<V>(quad.center, k), Splat<V>(quad.reach[k]),
-          Splat<V>(quad.area[k]),   Splat<V>(quad.ab_ab[k]),  Splat<V>(quad.ab_ac[k]),
-          Splat<V>(quad.ac_ac[k]),  Splat<V>(quad.bc_bc[k]),  Splat<V>(quad.per_ab[k]),
-          Splat<V>(quad.per_ac[k]), Splat<V>(quad.per_bc[k]), Splat<V>(quad.per_square[k])};
+  return {Splat<V>(quad.a, k),         Splat<V>(quad.ab, k),     Splat<V>(quad.ac, k),
+          Splat<V>(quad.normal, k),    Splat<V>(quad.area[k]),   Splat<V>(quad.ab_ab[k]),
+          Splat<V>(quad.ab_ac[k]),     Splat<V>(quad.ac_ac[k]),  Splat<V>(quad.bc_bc[k]),
+          Splat<V>(quad.per_ab[k]),    Splat<V>(quad.per_ac[k]), Splat<V>(quad.per_bc[k]),
+          Splat<V>(quad.per_square[k])};
 }
 
 /// The points of triangles that are closest to a point.

@@ -31,8 +31,8 @@ TEST(PlaceTriangles, GivesTheSameBitsInAnyWidth) {
     PlaceTriangles(body, constants, fastest, FastestLanes());
     for (std::size_t q = 0; q < kTriangleQuadCount; ++q) {
       ExpectEqual(two.triangle[q].normal, fastest.triangle[q].normal);
-      ExpectEqual(two.triangle[q].center, fastest.triangle[q].center);
-      EXPECT_EQ(two.triangle[q].reach, fastest.triangle[q].reach);
+      ExpectEqual(two.triangle[q].a, fastest.triangle[q].a);
+      EXPECT_EQ(two.triangle[q].per_bc, fastest.triangle[q].per_bc);
       EXPECT_EQ(two.triangle[q].per_square, fastest.triangle[q].per_square);
       ExpectEqual(two.tangent[q].along, fastest.tangent[q].along);
       ExpectEqual(two.tangent[q].third, fastest.tangent[q].third);

@@ -262,7 +262,7 @@ TEST(SmoothMeshDistance, IsTheWeightedMeanOfItsDefinition) {
       const double outside = 1.0 - (1.0 - Smoothstep(plane / (2.0 * kEpsilon))) *
                                        (1.0 - Smoothstep(away / kWidth - 1.0));
       const SignedDistance d = SmoothMeshDistance(quads, p, kEpsilon, kWidth);
-      EXPECT_NEAR(d.distance, glm::mix(plane, away, outside), 2e-5);
+      EXPECT_NEAR(d.distance, glm::mix(plane, away, outside), 1e-12);
     }
   }
 }
