@@ -16,7 +16,9 @@ namespace {
 /// rows for both, and their surfaces are curved more: a softer pull, or they shiver.
 constexpr double kContactWeight = 10.0;
 constexpr double kMutualWeight = 3.0;
-constexpr double kAnchorWeight = 10.0;   // of the wrist's place while the arm gives way
+constexpr double kHandWeight = 2.0;     // of a hand point in trunk or head
+constexpr double kHandMargin = 0.004;   // metres: how near it may come where the performer's is far
+constexpr double kAnchorWeight = 10.0;  // of the wrist's place while the arm gives way
 constexpr double kContactDamping = 0.5;  // that a contact's weight is measured against
 
 /// In heights. What lies deeper than the first, and a contact farther off than the second, counts
@@ -187,11 +189,11 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
     samples[s] = SampleOf(state.avatar, state.posed, arm, s);
   }
   const double height = state.avatar.height;
-  const double margin = state.scale * state.settings.clearance_margin;
+  const double arm_margin = state.scale * state.settings.clearance_margin;
   const double fade = state.scale * state.settings.contact_fade;
   const CapsuleObstacles capsules = CapsuleObstaclesOf(state.posed, arm);
   const std::array<std::array<bool, kObstacleCount>, kPartCount> is_far =
-      FarFrom(state, body, capsules, arm, samples, margin, fade);
+      FarFrom(state, body, capsules, arm, samples, arm_margin, fade);
   const std::size_t count =
       state.egocentric.form.hand_points ? kClearanceSampleCount : kFirstContactSample + 1;
   double most_touching = 0.0;
@@ -211,6 +213,9 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
                                   : 0.0;
       most_touching = std::max(most_touching, touching);
       // Far from an obstacle nothing can be asked: most samples of most postures.
+      // A hand in trunk or head is seen at once, and may touch them where its own place is too far.
+      const bool hand_in_body = of_hand && o < kFirstCapsuleObstacle;
+      const double margin = hand_in_body ? kHandMargin * state.scale : arm_margin;
       const double most = performer.known ? std::min(clearance, margin) : margin;
       SignedDistance now;
       CapsuleMeasure capsule;
@@ -250,7 +255,8 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
       }
       if ((contacts_alone && o >= kFirstCapsuleObstacle) || now.distance >= most) continue;
       const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
-      const double weight = performer.trust * Smoothstep(short_of / (0.04 * height)) *
+      const double weight = performer.trust * (hand_in_body ? kHandWeight : 1.0) *
+                            Smoothstep(short_of / ((hand_in_body ? 1.0 : 2.0) * kDeep * height)) *
                             Bounded(short_of / (kDeep * height));
       if (weight > 0.0) ask(short_of, weight);
     }
