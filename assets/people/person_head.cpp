@@ -104,10 +104,10 @@ double PersonHead::Skin(const Vec3& p, bool plain_ears) const {
   const Vec3 q{std::abs(p.x), p.y - chin_, p.z - middle_z_};
   double d = Face(q);
 
-  // Ears: a shell around a hollow.
+  // Ears, where no hair hides them: a shell around a hollow.
   const double e = m.ear_size;
-  if (q.x > 0.7 * w) {
-    const Vec3 ear{w + 0.004 * h, (0.36 + 0.10 * e) * h, -0.10 * l};
+  if (q.x > 0.7 * w && m.hair != Hair::kBob) {
+    const Vec3 ear = Ear();
     // Turned outward and leaning back.
     Vec3 a = q - ear;
     a = {a.x + 0.30 * a.z, a.y, a.z + 0.22 * a.y - 0.30 * a.x};
@@ -174,25 +174,11 @@ double PersonHead::Hair(const Vec3& p) const {
   double d = Ellipsoid(q, {0.0, top - half, -0.05 * l},
                        {(1.0 + 0.075 * thick) * w, half, (0.99 + 0.045 * thick) * l});
 
-  // The hairline: high over the forehead, down before the ears, up around them, low at the nape.
-  const double z = q.z / l;
-  const double across = q.x / w;
-  double line = 0.0;
-  switch (m.hair) {
-    case Hair::kBob:
-      d = SmoothUnion(d,
-                      Ellipsoid(q, {0.52 * w, 0.34 * h, -0.26 * l}, {0.68 * w, 0.40 * h, 0.80 * l}),
-                      0.10 * h);
-      // Flared ends.
-      d -= 0.020 * h * (1.0 - SmoothStep(0.02 * h, 0.22 * h, q.y));
-      line = 0.02 * h + 0.70 * h * SmoothStep(0.18, 0.66, z - 0.22 * across + 0.08) -
-             0.03 * h * SmoothStep(0.0, 1.0, across);
-      break;
-    default:
-      line = (0.20 + 0.20 * SmoothStep(-0.80, -0.30, z) + 0.13 * SmoothStep(0.02, 0.30, z) +
-              0.205 * SmoothStep(0.42, 0.80, z - 0.10 * across)) *
-             h;
-      break;
+  if (m.hair == Hair::kBob) {
+    d = SmoothUnion(
+        d, Ellipsoid(q, {0.52 * w, 0.34 * h, -0.26 * l}, {0.68 * w, 0.40 * h, 0.80 * l}), 0.10 * h);
+    // Flared ends.
+    d -= 0.020 * h * (1.0 - SmoothStep(0.02 * h, 0.22 * h, q.y));
   }
   switch (m.hair) {
     case Hair::kShort: {
@@ -220,15 +206,56 @@ double PersonHead::Hair(const Vec3& p) const {
     default:
       break;
   }
+  const double above = AboveHairline(q);
   if (m.hair == Hair::kShort || m.hair == Hair::kBob || m.hair == Hair::kBun) {
     // Strands from the parting: ridges along the flow of the hair.
     const double strand =
         m.hair == Hair::kBob ? std::atan2(q.x, q.z + 0.4 * l) * 9.0 : 2.2 * kPi * q.x / (0.36 * w);
-    d -= 0.0045 * h * SmoothStep(0.02 * h, 0.10 * h, q.y - line) *
+    d -= 0.0045 * h * SmoothStep(0.02 * h, 0.10 * h, above) *
          std::sin(strand + 1.2 * std::sin(9.0 * q.y / h));
   }
-  d = SmoothIntersection(d, 0.9 * (line - q.y), 0.022 * h);
-  return d;
+  // Towards its line the hair sinks into the skin: where they cross, no ledge looks down.
+  d += 0.095 * h * (1.0 - SmoothStep(0.0, 0.11 * h, above));
+  return SmoothIntersection(d, -0.9 * above, 0.022 * h);
+}
+
+double PersonHead::AboveHairline(const Vec3& q) const {
+  const PersonParameters& m = parameters_;
+  const double h = m.head_height;
+  const double w = m.head_width / 2.0;
+  const double l = m.head_depth / 2.0;
+  // High over the forehead, down before the ears, low at the nape.
+  const auto line = [&](double x, double z) {
+    const double across = x / w;
+    const double front = z / l;
+    if (m.hair == Hair::kBob) {
+      return (-0.03 + 0.62 * SmoothStep(0.24, 0.70, front - 0.16 * across + 0.04) -
+              0.03 * SmoothStep(0.0, 1.0, across)) *
+             h;
+    }
+    return (0.12 + 0.22 * SmoothStep(-0.80, -0.30, front) + 0.13 * SmoothStep(0.02, 0.30, front) +
+            0.205 * SmoothStep(0.42, 0.80, front - 0.10 * across)) *
+           h;
+  };
+  const double step = 0.01 * h;
+  const double slope_x = (line(q.x + step, q.z) - line(q.x - step, q.z)) / (2.0 * step);
+  const double slope_z = (line(q.x, q.z + step) - line(q.x, q.z - step)) / (2.0 * step);
+  const double above =
+      (q.y - line(q.x, q.z)) / std::sqrt(1.0 + slope_x * slope_x + slope_z * slope_z);
+  if (m.hair == Hair::kBob || q.x < 0.5 * w) return above;
+  // Around the ears.
+  const Vec3 ear = Ear();
+  const Vec2 from{q.z - ear.z + 0.22 * (q.y - ear.y), q.y - ear.y};
+  const double e = m.ear_size * h;
+  const Vec2 radius{0.078 * e, 0.108 * e};
+  const double around = (glm::length(from / radius) - 1.0) * radius.x;
+  return SmoothUnion(above, around, 0.03 * h);
+}
+
+Vec3 PersonHead::Ear() const {
+  const PersonParameters& m = parameters_;
+  return {0.5 * m.head_width + 0.004 * m.head_height, (0.36 + 0.10 * m.ear_size) * m.head_height,
+          -0.05 * m.head_depth};
 }
 
 Region PersonHead::FaceRegion(const Vec3& p) const {

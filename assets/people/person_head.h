@@ -38,8 +38,12 @@ class PersonHead {
   double Y(double share) const { return chin_ + share * parameters_.head_height; }
 
  private:
-  /// Relative to the eyeball's middle, in eyeball radii.
   double HairTop() const;
+  /// How far a point (relative to chin and middle, x >= 0) is from the hairline, along the skin,
+  /// positive where hair grows.
+  double AboveHairline(const Vec3& q) const;
+  Vec3 Ear() const;  // middle of the left ear, relative to chin and middle
+  /// Relative to the eyeball's middle, in eyeball radii.
   Vec3 InEye(const Vec3& q) const;
   double Face(const Vec3& q) const;  // q: relative to chin and middle, x >= 0
   double Front(double x, double y) const;
