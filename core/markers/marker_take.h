@@ -17,6 +17,9 @@ struct MarkerFrame {
   double time_s = 0.0;
   std::span<const Vec3> position_ws;
   std::span<const std::uint8_t> visible;  // 0 or 1
+  /// How far a point that was told from others may be off, one axis, metres; 0: it was seen. Empty
+  /// where all were.
+  std::span<const double> told_sigma = {};
 };
 
 /// A recording of labelled markers, as a reader hands it over: converted to metres and Y up,
@@ -27,9 +30,9 @@ struct MarkerTake {
   std::vector<std::string> ignored;  // labels of points that are no markers (model outputs)
   double rate_hz = 0.0;
   std::size_t frame_count = 0;
-  std::vector<Vec3> position_ws;       // frame_count * labels.size(), frame after frame
-  std::vector<std::uint8_t> visible;   // same shape
-  std::vector<std::string> warnings;   // sentences worth showing ("units \"238\" read as mm")
+  std::vector<Vec3> position_ws;      // frame_count * labels.size(), frame after frame
+  std::vector<std::uint8_t> visible;  // same shape
+  std::vector<std::string> warnings;  // sentences worth showing ("units \"238\" read as mm")
 
   MarkerFrame Frame(std::size_t index) const {
     const std::size_t n = labels.size();

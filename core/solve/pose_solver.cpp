@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/solve/cold_pose.h"
@@ -105,9 +106,14 @@ Descent Minimise(const Problem& problem, int max_iterations, Posture& posture) {
   return descent;
 }
 
+/// Visible, and not told from others.
+bool IsSeen(const MarkerFrame& frame, std::size_t label) {
+  return frame.visible[label] && (frame.told_sigma.empty() || frame.told_sigma[label] == 0.0);
+}
+
 std::size_t CountVisible(const MarkerModel& model, const MarkerFrame& frame) {
   std::size_t count = 0;
-  for (const BoundMarker& marker : model.markers) count += frame.visible[marker.label] ? 1u : 0u;
+  for (const BoundMarker& marker : model.markers) count += IsSeen(frame, marker.label) ? 1u : 0u;
   return count;
 }
 
@@ -117,13 +123,73 @@ double MeanResidual(const MarkerModel& model, const MarkerFrame& frame, const Mo
   double sum = 0.0;
   std::size_t count = 0;
   for (const BoundMarker& marker : model.markers) {
-    if (!frame.visible[marker.label]) continue;
+    if (!IsSeen(frame, marker.label)) continue;
     const Vec3 point = MarkerPosition(marker, pose);
     sum += std::min(cap, glm::distance(point, frame.position_ws[marker.label]));
     ++count;
   }
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
+
+// A marker this far from where the others put it, and from where the posture does, is another's or
+// none's.
+constexpr double kGhost = 0.1;
+
+/// A frame whose markers may be replaced by what others tell, in memory that a state lends.
+class ToldFrame {
+ public:
+  ToldFrame(const MarkerModel& model, const MarkerFrame& frame, PoseSolver::State& state)
+      : model_(model), state_(state), frame_(frame) {}
+
+  const MarkerFrame& frame() const { return frame_; }
+
+  /// Lost markers, told from those around them.
+  void FillLost() {
+    const MarkerFrame seen = frame_;
+    for (std::size_t m = 0; m < model_.markers.size(); ++m) {
+      if (seen.visible[model_.markers[m].label]) continue;
+      const auto told = Tell(model_.predictors, m, seen);
+      if (told) Replace(model_.markers[m].label, *told, seen);
+    }
+  }
+
+  /// Markers far from this posture, told from those around them where these agree with it.
+  /// Returns whether there were any.
+  bool ReplaceGhosts(const ModelPose& pose) {
+    const MarkerFrame seen = frame_;
+    bool any = false;
+    for (std::size_t m = 0; m < model_.markers.size(); ++m) {
+      const BoundMarker& marker = model_.markers[m];
+      if (!seen.visible[marker.label]) continue;
+      const Vec3& at = seen.position_ws[marker.label];
+      if (glm::distance(MarkerPosition(marker, pose), at) < kGhost) continue;
+      const auto told = Tell(model_.predictors, m, seen);
+      if (!told || glm::distance(told->position_ws, at) < kGhost) continue;
+      Replace(marker.label, *told, seen);
+      any = true;
+    }
+    return any;
+  }
+
+ private:
+  void Replace(std::size_t label, const MarkerPredictor::Prediction& told,
+               const MarkerFrame& seen) {
+    if (frame_.position_ws.data() != state_.position_ws.data()) {
+      state_.position_ws.assign(seen.position_ws.begin(), seen.position_ws.end());
+      state_.visible.assign(seen.visible.begin(), seen.visible.end());
+      state_.told_sigma.assign(seen.visible.size(), 0.0);
+      std::copy(seen.told_sigma.begin(), seen.told_sigma.end(), state_.told_sigma.begin());
+      frame_ = {seen.time_s, state_.position_ws, state_.visible, state_.told_sigma};
+    }
+    state_.position_ws[label] = told.position_ws;
+    state_.visible[label] = 1;
+    state_.told_sigma[label] = told.sigma;
+  }
+
+  const MarkerModel& model_;
+  PoseSolver::State& state_;
+  MarkerFrame frame_;
+};
 
 constexpr int kColdIterations = 30;
 // Steps with the loss that still pulls from afar before the one that ignores ghosts.
@@ -141,7 +207,9 @@ PoseSolverReport PoseSolver::Solve(const MarkerFrame& frame, State& state) const
   if (report.visible < kMinMarkers) return report;
 
   const Posture previous = PostureFromPose(state.pose);
-  Problem problem{model_, frame, {options_.sigma, options_.outlier_factor}, {}};
+  ToldFrame told(model_, frame, state);
+  told.FillLost();
+  Problem problem{model_, told.frame(), {options_.sigma, options_.outlier_factor}, {}};
   if (options_.step_per_frame > 0.0) {
     problem.priors.previous = &previous;
     problem.priors.rotation_sigma = options_.step_per_frame;
@@ -150,16 +218,18 @@ PoseSolverReport PoseSolver::Solve(const MarkerFrame& frame, State& state) const
   report.iterations = Minimise(problem, kApproach, posture).iterations;
   problem.loss = Final(problem.loss);
   report.iterations += Minimise(problem, options_.max_iterations, posture).iterations;
+  if (told.ReplaceGhosts(Placed(model_.skeleton, posture))) {
+    report.iterations += Minimise(problem, options_.max_iterations, posture).iterations;
+  }
   report.mean_residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
   report.solved = true;
 
-  constexpr double kGhost = 0.1;
   if (!(MeanResidual(model_, frame, Placed(model_.skeleton, posture), kGhost) <
         options_.restart_residual)) {
     State fresh;
     const PoseSolverReport cold = SolveCold(frame, fresh);
     // Judged without the temporal prior, which a restart rightly breaks.
-    const Problem plain{model_, frame, problem.loss, {}};
+    const Problem plain{model_, told.frame(), problem.loss, {}};
     if (cold.solved && Cost(plain, PostureFromPose(fresh.pose)) < 0.8 * Cost(plain, posture)) {
       state.pose = fresh.pose;
       report = cold;
@@ -178,14 +248,20 @@ PoseSolverReport PoseSolver::SolveCold(const MarkerFrame& frame, State& state) c
   double best_cost = std::numeric_limits<double>::infinity();
   for (const ColdGuess guess : kColdGuesses) {
     Posture posture = PostureFromPose(GuessPose(model_, frame, guess));
-    Problem problem{model_, frame, {options_.sigma, options_.outlier_factor}, {}};
+    ToldFrame told(model_, frame, state);
+    told.FillLost();
+    Problem problem{model_, told.frame(), {options_.sigma, options_.outlier_factor}, {}};
     for (const double factor : {12.0, 4.0, 1.0}) {
       problem.loss.sigma = factor * options_.sigma;
       report.iterations += Minimise(problem, kColdIterations, posture).iterations;
     }
     problem.loss = Final(problem.loss);
-    const Descent descent = Minimise(problem, kColdIterations, posture);
+    Descent descent = Minimise(problem, kColdIterations, posture);
     report.iterations += descent.iterations;
+    if (told.ReplaceGhosts(Placed(model_.skeleton, posture))) {
+      descent = Minimise(problem, kColdIterations, posture);
+      report.iterations += descent.iterations;
+    }
     const double residual = MeanResidual(model_, frame, Placed(model_.skeleton, posture));
     if (!(descent.cost < best_cost)) continue;
     best_cost = descent.cost;

@@ -10,6 +10,7 @@
 #include "core/skeleton/pose.h"
 #include "core/skeleton/skeleton.h"
 #include "core/solve/bound_marker.h"
+#include "core/solve/marker_predictor.h"
 
 namespace ego {
 
@@ -17,6 +18,7 @@ namespace ego {
 struct MarkerModel {
   Skeleton skeleton;
   std::vector<BoundMarker> markers;
+  std::vector<MarkerPredictor> predictors;  // of markers that others can tell; may be empty
 };
 
 struct PoseSolverOptions {
@@ -48,6 +50,10 @@ class PoseSolver {
   struct State {
     Pose pose;
     bool started = false;
+    // What is solved for: the frame with lost markers told from others. Kept for its memory alone.
+    std::vector<Vec3> position_ws{};
+    std::vector<std::uint8_t> visible{};
+    std::vector<double> told_sigma{};
   };
 
   PoseSolver(MarkerModel model, PoseSolverOptions options);
@@ -55,8 +61,9 @@ class PoseSolver {
   const MarkerModel& model() const { return model_; }
 
   /// Solves one frame from `state.pose` (from a guess when not started) and leaves the result
-  /// there, world space. Fewer than kMinMarkers seen: the pose is held. Never NaN. Allocates only
-  /// where it has to start afresh.
+  /// there, world space. Fewer than kMinMarkers seen: the pose is held. Never NaN. Markers that are
+  /// lost, or far from where they can be, are told from others as far as the model's predictors
+  /// can. Allocates only where it has to start afresh and where a stream's first marker is lost.
   PoseSolverReport Solve(const MarkerFrame& frame, State& state) const;
 
   /// Solves with no regard to any earlier frame: from several guesses, the best is kept.

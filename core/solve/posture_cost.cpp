@@ -150,6 +150,14 @@ double AllPriors(const Posture& posture, const Priors& priors, NormalEquations* 
   return cost;
 }
 
+/// A marker that was told from others counts for less, the less sure it is.
+MarkerLoss LossOf(const MarkerLoss& loss, const MarkerFrame& frame, std::size_t label) {
+  if (frame.told_sigma.empty() || frame.told_sigma[label] == 0.0) return loss;
+  MarkerLoss told = loss;
+  told.sigma = std::hypot(loss.sigma, frame.told_sigma[label]);
+  return told;
+}
+
 }  // namespace
 
 double MarkerLoss::Cost(double squared_distance) const {
@@ -178,7 +186,7 @@ double MarkerCost(const MarkerModel& model, const MarkerFrame& frame, const Mode
   for (const BoundMarker& marker : model.markers) {
     if (!frame.visible[marker.label]) continue;
     const Vec3 error = MarkerPosition(marker, pose) - frame.position_ws[marker.label];
-    cost += loss.Cost(glm::dot(error, error));
+    cost += LossOf(loss, frame, marker.label).Cost(glm::dot(error, error));
   }
   return cost;
 }
@@ -194,8 +202,9 @@ double AddMarkers(const MarkerModel& model, const MarkerFrame& frame, const Mode
     const CarriedMarker placed = Carry(marker, pose);
     const Vec3 error = placed.point_ws - frame.position_ws[marker.label];
     const double squared = glm::dot(error, error);
-    const double weight = loss.Weight(squared);
-    cost += loss.Cost(squared);
+    const MarkerLoss own = LossOf(loss, frame, marker.label);
+    const double weight = own.Weight(squared);
+    cost += own.Cost(squared);
     MarkerJacobian(marker, placed, pose, axis_ws, column);
     const std::span<const std::uint8_t> chain = Chain(marker);
     for (std::size_t r = 0; r < chain.size(); ++r) {

@@ -159,10 +159,11 @@ std::vector<std::size_t> DiverseSubset(const std::vector<Posture>& postures, std
   return chosen;
 }
 
-/// Postures and slides by turns. All candidate frames are used, not only those of the bundle:
-/// a regression on many frames learns less that is not there.
+/// Postures and slides by turns; leaves the postures of the frames `solved`. All candidate frames
+/// are used, not only those of the bundle: a regression on many frames learns less that is not
+/// there.
 void LearnSlides(const MarkerTake& take, const std::vector<std::size_t>& solved,
-                 std::vector<Posture> postures, Bundle& bundle) {
+                 std::vector<Posture>& postures, Bundle& bundle) {
   constexpr int kRounds = 4;
   PoseSolverOptions options;
   options.step_per_frame = 0.0;
@@ -290,8 +291,15 @@ Result<SkeletonFit> FitSkeleton(const MarkerTake& take, const MarkerSet& set,
     AdjustBundle(bundle, stage);
     Rescale(bundle);
   }
-  LearnSlides(take, solved, std::move(postures), bundle);
+  LearnSlides(take, solved, postures, bundle);
   fit.model = ModelOf(bundle);
+  std::vector<MarkerFrame> learnt;
+  std::vector<ModelPose> poses;
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    learnt.push_back(take.Frame(solved[i]));
+    poses.push_back(Placed(fit.model.skeleton, postures[i]));
+  }
+  fit.model.predictors = LearnPredictors(fit.model.markers, learnt, poses);
   fit.scale = bundle.scale;
   fit.mean_residual = MeanResidual(bundle);
   for (const FittedMarker& marker : bundle.markers) {

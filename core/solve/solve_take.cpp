@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/body/surface_fit.h"
+#include "core/solve/marker_gaps.h"
 #include "core/solve/performer_surface.h"
 #include "core/solve/pose_gaps.h"
 #include "core/solve/standing.h"
@@ -140,6 +141,7 @@ Result<SolvedTake> SolveTake(const MarkerTake& take, const MarkerSet& set,
     pose_options.step_per_frame *= std::max(1.0, 100.0 / take.rate_hz);
   }
   const PoseSolver solver(fit.model, pose_options);
+  const FilledTake filled(take, fit.model.predictors);
   PoseSolver::State state;
   std::vector<Pose> poses(take.frame_count);
   std::vector<std::uint8_t> solved(take.frame_count, 0);
@@ -151,7 +153,7 @@ Result<SolvedTake> SolveTake(const MarkerTake& take, const MarkerSet& set,
                 "solving postures")) {
       return Error{"cancelled"};
     }
-    solved[f] = solver.Solve(take.Frame(f), state).solved ? 1 : 0;
+    solved[f] = solver.Solve(filled.Frame(f), state).solved ? 1 : 0;
     poses[f] = state.pose;
     if (!solved[f]) result.report.frames_without_markers.push_back(f);
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +89,65 @@ TEST_P(RealTakeSolve, SolvesWithinTheBars) {
   EXPECT_NEAR(lowest, CanonicalPositions(solved->motion.performer.skeleton)[Index(J::kLeftFoot)].y,
               0.06);
 }
+
+class LostMarker : public testing::TestWithParam<const char*> {};
+
+/// Any one marker lost for half a second, and the skeleton and the postures learnt without that
+/// half second: joints stay within 10 mm of where they are with it.
+TEST_P(LostMarker, MovesNoJointByMoreThanACentimetre) {
+  EGO_SHARED_DATA_OR_SKIP(path, std::string("markers/") + GetParam());
+  const Result<MarkerTake> take = path.extension() == ".trc" ? ReadTrc(path) : ReadC3d(path);
+  ASSERT_TRUE(take) << take.error();
+  const Result<MarkerSet> set = ChooseMarkerSet(take->labels);
+  ASSERT_TRUE(set) << set.error();
+  const std::size_t begin = take->frame_count / 2;
+  const std::size_t end = begin + static_cast<std::size_t>(0.5 * take->rate_hz);
+  ASSERT_LT(end, take->frame_count);
+  const std::size_t labels = take->labels.size();
+  MarkerTake rest = *take;
+  for (std::size_t i = begin * labels; i < end * labels; ++i) rest.visible[i] = 0;
+  const Result<SkeletonFit> fit = FitSkeleton(rest, *set);
+  ASSERT_TRUE(fit) << fit.error();
+  PoseSolverOptions options;
+  options.step_per_frame *= std::max(1.0, 100.0 / take->rate_hz);
+  const PoseSolver solver(fit->model, options);
+
+  const auto solve = [&](const MarkerTake& markers, PoseSolver::State state) {
+    std::vector<ModelPose> poses;
+    for (std::size_t f = begin; f < end; ++f) {
+      solver.Solve(markers.Frame(f), state);
+      poses.push_back(ForwardKinematics(fit->model.skeleton, state.pose));
+    }
+    return poses;
+  };
+  PoseSolver::State before;
+  solver.Solve(take->Frame(begin - 1), before);
+  const std::vector<ModelPose> whole = solve(*take, before);
+  for (const BoundMarker& marker : fit->model.markers) {
+    MarkerTake lost = *take;
+    for (std::size_t f = begin; f < end; ++f) lost.visible[f * labels + marker.label] = 0;
+    const std::vector<ModelPose> without = solve(lost, before);
+    double shift = 0.0;
+    for (std::size_t f = 0; f < whole.size(); ++f) {
+      for (std::size_t j = 0; j < kJointCount; ++j) {
+        shift = std::max(shift, glm::distance(whole[f].position_ws[j], without[f].position_ws[j]));
+      }
+    }
+    EXPECT_LT(shift, 0.010) << take->labels[marker.label];
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, LostMarker,
+                         testing::Values("cmu_02_05.c3d", "btk_mocap36_optitrack.c3d",
+                                         "millard_stoop1_t169_f620f800.c3d",
+                                         "rajagopal_motion_capture_walk.trc"),
+                         [](const auto& each) {
+                           std::string name = each.param;
+                           for (char& c : name) {
+                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+                           }
+                           return name;
+                         });
 
 INSTANTIATE_TEST_SUITE_P(
     Shared, RealTakeSolve,

@@ -197,13 +197,14 @@ TEST(PoseSolver, TurningAndMovingTheMarkersTurnsAndMovesThePose) {
 
 TEST(PoseSolver, OneLostMarkerMovesJointsLittle) {
   const Known& known = KnownPerformer();
-  const std::vector<Pose> whole = SolveAll(known, known.made.take);
-  for (const char* label : {"LELB", "RKNE", "C7", "LASI", "RSHO", "LHEE"}) {
-    MarkerTake gap = known.made.take;
-    const std::size_t m = LabelIndex(gap, label);
-    ASSERT_LT(m, gap.labels.size());
+  MarkerTake start = known.made.take;
+  start.frame_count = 150;
+  const std::vector<Pose> whole = SolveAll(known, start);
+  for (std::size_t m = 0; m < start.labels.size(); ++m) {
+    MarkerTake gap = start;
     for (std::size_t f = 100; f < 150; ++f) gap.visible[f * gap.labels.size() + m] = 0;
-    EXPECT_LT(LargestShift(known.fit.model.skeleton, whole, SolveAll(known, gap)), 0.012) << label;
+    EXPECT_LT(LargestShift(known.fit.model.skeleton, whole, SolveAll(known, gap)), 0.010)
+        << gap.labels[m];
   }
 }
 
