@@ -99,8 +99,7 @@ ArmSample SampleOf(const Body& body, const PosedBody& posed, Limb arm, std::size
 BodyObstacles::BodyObstacles(const Body& body, const PosedBody& posed) : height_(body.height) {
   const std::span<const TriangleQuad> all(posed.triangle);
   mesh_ = {all.first(kTrunkQuadCount), all.subspan(kTrunkQuadCount)};
-  const std::span<const Vec3> sample(posed.sample);
-  box_ = {Box::Of(sample.first(kTrunkSampleCount)), Box::Of(sample.subspan(kTrunkSampleCount))};
+  box_ = posed.box;
   width_ = {0.55 * Width(body, SamplePoint::kLeftWaistSide, SamplePoint::kRightWaistSide),
             0.55 * Width(body, SamplePoint::kLeftEar, SamplePoint::kRightEar)};
 }

@@ -166,6 +166,8 @@ void PlaceTriangles(const Body& body, const BodyConstants& constants, PosedBody&
     }
     sample[i] = sum;
   }
+  const std::span<const Vec3> all(sample);
+  posed.box = {Box::Of(all.first(kTrunkSampleCount)), Box::Of(all.subspan(kTrunkSampleCount))};
   posed.hips = glm::mat3_cast(posed.pose.rotation_ws[0]);
   Corners corners;
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
@@ -217,6 +219,7 @@ void PlaceHand(const Body& body, const BodyConstants& constants, Limb arm, Posed
 void MovePosedBody(const Vec3& by, PosedBody& posed) {
   for (Vec3& p : posed.pose.position_ws) p += by;
   for (Vec3& p : posed.sample) p += by;
+  for (Box& box : posed.box) box = {box.low + by, box.high + by};
   const auto move_four = [&](QuadVectors& four) {
     for (std::size_t k = 0; k < 4; ++k) {
       four.x[k] += by.x;

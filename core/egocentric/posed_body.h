@@ -7,6 +7,7 @@
 #include "core/egocentric/kinematic_path.h"
 #include "core/egocentric/limb_point.h"
 #include "core/geometry/closest_point.h"
+#include "core/geometry/mesh_distance.h"
 #include "core/geometry/triangle_quad.h"
 #include "core/skeleton/pose.h"
 
@@ -53,6 +54,7 @@ struct PosedBody {
   ModelPose pose;
   Mat3 hips{1.0};  // rotation of the root, the frame of displacements from trunk and head
   std::array<Vec3, kSampleCount> sample;
+  std::array<Box, 2> box;  // of trunk and head
   std::array<TriangleQuad, kTriangleQuadCount> triangle;
   std::array<TangentQuad, kTriangleQuadCount> tangent;
   std::array<PosedCapsule, kSegmentCount> capsule;
