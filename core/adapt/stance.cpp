@@ -14,6 +14,8 @@ namespace {
 constexpr double kUsableReach = 0.975;
 /// Rise over leg length that makes the leg that needs less of it e times as heavy.
 constexpr double kLowerLegWins = 0.3;
+/// Way to the standing place, over the leg's length, at which it is given up.
+constexpr double kGivesUp = 0.7;
 /// Metres below which a foot is as near to the ground as counts.
 constexpr double kContactGap = 0.0004;
 
@@ -68,11 +70,12 @@ void LockStance(AdaptState& state, Limb leg) {
   const LimbChain& chain = state.chain[Index(leg)];
   const LimbPosture& posture = state.limb[Index(leg)];
   const Vec3 end = Place(chain, posture).end;
-  // Where the root's scale puts the foot of a very short leg beside its own hip, nothing that the
-  // leg could do looks like standing.
+  // The farther from where the leg would have put it, the less: a leg that is very short for the
+  // root's scale would be thrown between both as the foot comes down, and where its foot belongs
+  // beside its own hip, nothing that it could do looks like standing.
   const Vec3 ground_end = DenormalizeGround(state, leg);
   const double off = glm::distance(ground_end, end) / chain.Reach();
-  const double held = lock * (1.0 - Smoothstep((off - 0.3) / 0.5));
+  const double held = lock * (1.0 - Smoothstep(off / kGivesUp));
   state.Apply(leg, ReachEnd(chain, posture, glm::mix(end, ground_end, held)));
 }
 
