@@ -35,7 +35,7 @@ std::vector<double> Planes(double low, double high, const std::function<double(d
 SampleLattice LatticeOf(const PersonShape& shape) {
   const PersonParameters& m = shape.parameters();
   const double cell = std::sqrt(m.height / 76.0 *
-                                std::max(m.height / 76.0, (m.chest_width + m.waist_width) / 27.0));
+                                std::max(m.height / 76.0, (m.chest_width + m.waist_width) / 25.0));
   const Vec3 wrist = shape.Joint(J::kLeftHand);
   const double hand_fine = std::min(1.0, 0.021 * m.hand_length / cell);
   const double hand_along = std::min(1.0, 0.032 * m.hand_length / cell);
@@ -51,8 +51,13 @@ SampleLattice LatticeOf(const PersonShape& shape) {
   const auto on_hand = [=](double x) {
     return SmoothStep(wrist.x - 0.45 * m.hand_length, wrist.x + 0.30 * m.hand_length, std::abs(x));
   };
-  // Along the arm, and across it.
-  const auto along_scale = [=](double x) { return glm::mix(1.0, hand_along, on_hand(x)); };
+  // Along the arm, where a cuff must not fall between two planes, and across it.
+  const double cuff = shape.CuffReach();
+  const double trim = shape.TrimWidth();
+  const auto along_scale = [=](double x) {
+    const bool near_cuff = x > cuff - 2.5 * trim && x < cuff + trim;
+    return std::min(glm::mix(1.0, hand_along, on_hand(x)), near_cuff ? 0.85 * trim / cell : 1.0);
+  };
   const auto hand_scale = [=](double x) {
     const double lower =
         SmoothStep(armpit, std::max(armpit, wrist.x - forearm) + 0.2 * forearm, std::abs(x));

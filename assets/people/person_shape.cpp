@@ -17,9 +17,6 @@ using field::SmoothIntersection;
 using field::SmoothStep;
 using field::SmoothUnion;
 
-/// Of collar and cuffs, shares of the height.
-constexpr double kTrimWidth = 0.0105;
-
 /// Radius along a segment, scaled so that its mean over the middle (where a radius is measured)
 /// is `radius`.
 Profile LimbProfile(double radius, std::vector<Vec2> shape) {
@@ -252,6 +249,8 @@ Vec3 PersonShape::Normal(const Vec3& p) const {
   return size > 1e-12 ? g / size : kUp;
 }
 
+double PersonShape::TrimWidth() const { return 0.0105 * parameters_.height; }
+
 double PersonShape::CuffReach() const {
   const double end = parameters_.sleeve_end;
   const double elbow = Joint(J::kLeftLowerArm).x;
@@ -292,7 +291,7 @@ Region PersonShape::RegionAt(const Vec3& p) const {
   if (p.y < HipHeight() + 0.06 * length) return LegRegion(p, arm, trunk, Leg(p));
 
   const double cuff = CuffReach();
-  const double trim = kTrimWidth * m.height;
+  const double trim = TrimWidth();
   if (x > cuff) return Region::kSkin;
   if (x > cuff - trim) return Region::kTrim;
   if (high && head < trunk && p.y > ChinHeight() - 0.3 * m.head_height) {
@@ -311,11 +310,9 @@ double PersonShape::LongestEdge(const Vec3& p) const {
   const PersonParameters& m = parameters_;
   const double body = 0.027 * m.height;
   const Vec3 q{std::abs(p.x), p.y, p.z};
-  // Where trim runs round neck and sleeve.
-  const double cuff = CuffReach();
-  if (std::abs(q.x - cuff + 0.5 * kTrimWidth * m.height) < 0.9 * kTrimWidth * m.height ||
-      (q.y > Joint(J::kNeck).y - 0.2 * TrunkLength() && Neck(p) < 0.05 * TrunkLength())) {
-    return 1.9 * kTrimWidth * m.height;
+  // Where trim runs round the neck.
+  if (q.y > Joint(J::kNeck).y - 0.2 * TrunkLength() && Neck(p) < 0.05 * TrunkLength()) {
+    return 1.4 * TrimWidth();
   }
   const Vec3 from_wrist = (q - Joint(J::kLeftHand)) / m.hand_length;
   if (from_wrist.x > 0.0) return hand::LongestEdge(from_wrist) * m.hand_length;

@@ -51,6 +51,9 @@ class PersonShape {
   double TrunkLength() const { return Joint(HumanoidJoint::kNeck).y - HipHeight(); }
   double NavelHeight() const { return HipHeight() + 0.27 * TrunkLength(); }
   double ChinHeight() const { return parameters_.height - parameters_.head_height; }
+  /// How far out the sleeves end, and how broad the trim of sleeves and collar is.
+  double CuffReach() const;
+  double TrimWidth() const;
   /// Depth of the middle of the head.
   double HeadDepth() const { return head_.middle_z(); }
 
@@ -59,7 +62,6 @@ class PersonShape {
   double ArmWith(const Vec3& p, double leaner) const;
   double Hand(const Vec3& p, double leaner) const;
   double Foot(const Vec3& p) const;
-  double CuffReach() const;  // how far out the sleeves end
   Region LegRegion(const Vec3& p, double arm, double trunk, double leg) const;
 
   PersonParameters parameters_;

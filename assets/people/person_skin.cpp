@@ -72,7 +72,7 @@ JointWeights SkinWeights(const PersonShape& shape, const Vec3& p_ms) {
     Pass(w, side(J::kLeftShoulder), side(J::kLeftUpperArm), to_arm / to_clavicle);
   const double elbow = shape.Joint(J::kLeftLowerArm).x;
   const double wrist = shape.Joint(J::kLeftHand).x;
-  const double elbow_band = 0.9 * m.upper_arm_radius;
+  const double elbow_band = 0.65 * m.upper_arm_radius;
   Pass(w, side(J::kLeftUpperArm), side(J::kLeftLowerArm),
        SmoothStep(elbow - elbow_band, elbow + elbow_band, p.x));
   Pass(w, side(J::kLeftLowerArm), side(J::kLeftHand),
@@ -96,7 +96,7 @@ JointWeights SkinWeights(const PersonShape& shape, const Vec3& p_ms) {
     Pass(w, side(J::kLeftUpperLeg), Mirror(side(J::kLeftUpperLeg)), across);
   }
   const double knee = shape.Joint(J::kLeftLowerLeg).y;
-  const double knee_band = 0.95 * m.upper_leg_radius;
+  const double knee_band = 0.8 * m.upper_leg_radius;
   Pass(w, side(J::kLeftUpperLeg), side(J::kLeftLowerLeg),
        1.0 - SmoothStep(knee - knee_band, knee + knee_band, p.y));
   const Vec3& ankle = shape.Joint(J::kLeftFoot);

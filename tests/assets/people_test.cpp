@@ -155,6 +155,37 @@ TEST(People, FingerJointsLieInTheirFingersAndCarryThem) {
   }
 }
 
+TEST(People, FingersAreRoundToTheirTips) {
+  for (const Person& person : SomePeople()) {
+    if (person.body.name == "Robot") continue;  // made of blocks
+    const Skin skin = WeldedSkinOf(person.character);
+    const double wrist = CanonicalPositions(person.body.skeleton)[Index(J::kLeftHand)].x;
+    const double tip = person.body.surface.hand[0].fingertip_ms.x;
+    std::map<std::pair<std::size_t, std::size_t>, Vec3> normal_beside;
+    for (const auto& t : skin.triangles) {
+      const Vec3& a = skin.position[t[0]];
+      const Vec3 normal = glm::cross(skin.position[t[1]] - a, skin.position[t[2]] - a);
+      for (std::size_t k = 0; k < 3; ++k) {
+        normal_beside[{t[k], t[(k + 1) % 3]}] = glm::normalize(normal);
+      }
+    }
+    // Past the webs; the fold at an edge, degrees.
+    std::vector<double> folds;
+    for (const auto& [edge, normal] : normal_beside) {
+      const double x = std::abs(skin.position[edge.first].x);
+      if (x < glm::mix(wrist, tip, 0.68)) continue;
+      const Vec3& other = normal_beside.at({edge.second, edge.first});
+      folds.push_back(Degrees(std::acos(std::clamp(glm::dot(normal, other), -1.0, 1.0))));
+    }
+    std::sort(folds.begin(), folds.end());
+    ASSERT_GT(folds.size(), 1000u) << person.body.name;
+    std::printf("%-20s folds of fingers: 99 of 100 below %.0f, sharpest %.0f degrees\n",
+                person.body.name.c_str(), folds[folds.size() * 99 / 100], folds.back());
+    EXPECT_LT(folds[folds.size() * 99 / 100], 42.0) << person.body.name;
+    EXPECT_LT(folds.back(), 60.0) << person.body.name;
+  }
+}
+
 /// A joint of one person turned, and how much of the limb that bends may be lost.
 struct Bend {
   const char* name;
