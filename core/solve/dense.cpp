@@ -5,6 +5,20 @@
 #include <limits>
 
 namespace ego {
+namespace {
+
+/// Eight sums side by side: one alone would wait for itself at every term.
+double Dot(const double* a, const double* b, std::size_t n) {
+  double sum[8] = {};
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8) {
+    for (std::size_t k = 0; k < 8; ++k) sum[k] += a[i + k] * b[i + k];
+  }
+  for (std::size_t k = 0; i + k < n; ++k) sum[k] += a[i + k] * b[i + k];
+  return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
+}
+
+}  // namespace
 
 bool CholeskyInPlace(double* a, std::size_t n, std::size_t stride) {
   bool regular = true;
@@ -13,18 +27,9 @@ bool CholeskyInPlace(double* a, std::size_t n, std::size_t stride) {
     // Rows are finished one after the other; each row uses only rows above it.
     for (std::size_t k = 0; k < j; ++k) {
       const double* row_k = a + k * stride;
-      double sum0 = 0.0;
-      double sum1 = 0.0;
-      std::size_t i = 0;
-      for (; i + 1 < k; i += 2) {
-        sum0 += row_j[i] * row_k[i];
-        sum1 += row_j[i + 1] * row_k[i + 1];
-      }
-      if (i < k) sum0 += row_j[i] * row_k[i];
-      row_j[k] = (row_j[k] - (sum0 + sum1)) / row_k[k];
+      row_j[k] = (row_j[k] - Dot(row_j, row_k, k)) / row_k[k];
     }
-    double pivot = row_j[j];
-    for (std::size_t i = 0; i < j; ++i) pivot -= row_j[i] * row_j[i];
+    const double pivot = row_j[j] - Dot(row_j, row_j, j);
     if (pivot > 0.0) {
       row_j[j] = std::sqrt(pivot);
     } else {
@@ -38,9 +43,7 @@ bool CholeskyInPlace(double* a, std::size_t n, std::size_t stride) {
 void SolveLower(const double* l, std::size_t n, std::size_t stride, double* x) {
   for (std::size_t i = 0; i < n; ++i) {
     const double* row = l + i * stride;
-    double sum = x[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= row[k] * x[k];
-    x[i] = sum / row[i];
+    x[i] = (x[i] - Dot(row, x, i)) / row[i];
   }
 }
 
