@@ -17,13 +17,19 @@ Quat AlignExtremity(const AdaptState& state, Limb limb, const Quat& rotation_ws)
     const PosedCapsule& capsule = state.posed.capsule[Index(OtherSegment(limb, slot))];
     sum += coordinates.capsule[slot].importance * (capsule.frame * deviation.capsule[slot]);
   }
-  const double length = glm::length(sum);
-  if (length < 1e-6) return rotation_ws;
-
   const BodySurface& surface = state.avatar.surface;
   const std::size_t side = IsLeft(limb) ? 0 : 1;
   const Vec3& normal_ms =
       IsArm(limb) ? surface.hand[side].palm_normal_ms : surface.foot[side].sole_normal_ms;
+  // Feet keep to the captured joint angles as their ankles do.
+  const double gap = IsArm(limb) ? 0.0 : state.settings.leg_gap / 1.78;
+  if (gap > 0.0) {
+    const double anchor = 1.0 / (gap * coordinates.importance_sum);
+    sum = (sum + anchor * (rotation_ws * normal_ms)) / (1.0 + anchor);
+  }
+  const double length = glm::length(sum);
+  if (length < 1e-6) return rotation_ws;
+
   const Quat turn =
       SmallestRotation(rotation_ws * normal_ms, sum / length, rotation_ws * Vec3{1.0, 0.0, 0.0});
   // Opposed requests shorten the sum; below a third of full agreement they count in part.

@@ -243,8 +243,7 @@ TEST(RetargetMethod, MotionsOfOddBodiesDoNotJump) {
       last_avatar = target;
     }
     RecordProperty(std::string(name), std::to_string(Degrees(added)));
-    // Legs that are hardly longer than thick cannot cross.
-    EXPECT_LT(Degrees(added), name == "crossed legs" ? 40.0 : 10.0) << name;
+    EXPECT_LT(Degrees(added), 10.0) << name;
   }
 }
 
