@@ -74,16 +74,15 @@ double MarkerPredictor::Kernel::operator()(const Feature& a, const Feature& b) c
   return 1.0 + dot / spread2 + std::exp(-0.5 * squared / (length * length));
 }
 
-MarkerPredictor::Process MarkerPredictor::Train(const Kernel& kernel, std::span<const Feature> seen,
+MarkerPredictor::Process MarkerPredictor::Train(std::span<const double> kernel,
                                                 std::span<const Vec3> target,
                                                 std::span<const std::size_t> rows) {
   const std::size_t n = rows.size();
   Process process;
-  for (const std::size_t row : rows) process.seen.push_back(seen[row]);
   process.factor.assign(n * n, 0.0);
   for (std::size_t r = 0; r < n; ++r) {
     for (std::size_t c = 0; c <= r; ++c) {
-      process.factor[r * n + c] = kernel(process.seen[r], process.seen[c]);
+      process.factor[r * n + c] = kernel[rows[r] * target.size() + rows[c]];
     }
     process.factor[r * n + r] += kNoise;
   }
@@ -99,17 +98,11 @@ MarkerPredictor::Process MarkerPredictor::Train(const Kernel& kernel, std::span<
   return process;
 }
 
-MarkerPredictor::Told MarkerPredictor::Process::Tell(const Kernel& kernel,
-                                                     const Feature& feature) const {
-  std::array<double, kMaxFrames> column;
-  const std::size_t n = seen.size();
-  Told told{Vec3{0.0}, kernel(feature, feature) + kNoise};
-  for (std::size_t i = 0; i < n; ++i) {
-    column[i] = kernel(feature, seen[i]);
-    told.value += column[i] * weight[i];
-  }
-  SolveLower(factor.data(), n, n, column.data());
-  for (std::size_t i = 0; i < n; ++i) told.variance -= column[i] * column[i];
+MarkerPredictor::Told MarkerPredictor::Process::Tell(std::span<double> column, double self) const {
+  Told told{Vec3{0.0}, self + kNoise};
+  for (std::size_t i = 0; i < column.size(); ++i) told.value += column[i] * weight[i];
+  SolveLower(factor.data(), column.size(), column.size(), column.data());
+  for (const double c : column) told.variance -= c * c;
   told.variance = std::max(0.0, told.variance);
   return told;
 }
@@ -184,20 +177,30 @@ std::optional<MarkerPredictor> MarkerPredictor::Learn(std::size_t marker, std::s
 
   p.kernel_.length = kLength * std::sqrt(p.kernel_.spread2);
 
+  std::vector<double> kernel(n * n);
+  for (std::size_t r = 0; r < n; ++r) {
+    for (std::size_t k = 0; k <= r; ++k) {
+      kernel[r * n + k] = kernel[k * n + r] = p.kernel_(seen[r], seen[k]);
+    }
+  }
+
   // How far off it is where it was not learnt from.
   double error = 0.0;
   double variance = 0.0;
   std::vector<std::size_t> rows;
+  std::vector<double> column;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     rows.clear();
     const auto left_out = [&](std::size_t i) { return (i * kBlocks / n) % kFolds == fold; };
     for (std::size_t i = 0; i < n; ++i) {
       if (!left_out(i)) rows.push_back(i);
     }
-    const Process part = Train(p.kernel_, seen, target, rows);
+    const Process part = Train(kernel, target, rows);
+    column.resize(rows.size());
     for (std::size_t i = 0; i < n; ++i) {
       if (!left_out(i)) continue;
-      const Told told = part.Tell(p.kernel_, seen[i]);
+      for (std::size_t r = 0; r < rows.size(); ++r) column[r] = kernel[i * n + rows[r]];
+      const Told told = part.Tell(column, kernel[i * n + i]);
       error += glm::dot(told.value - target[i], told.value - target[i]) / 3.0;
       variance += told.variance;
     }
@@ -205,7 +208,8 @@ std::optional<MarkerPredictor> MarkerPredictor::Learn(std::size_t marker, std::s
   p.variance_scale_ = error / variance;
   rows.resize(n);
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  p.process_ = Train(p.kernel_, seen, target, rows);
+  p.process_ = Train(kernel, target, rows);
+  p.seen_ = std::move(seen);
   return p;
 }
 
@@ -213,7 +217,10 @@ std::optional<MarkerPredictor::Prediction> MarkerPredictor::Predict(
     const MarkerFrame& frame) const {
   const std::optional<Local> local = Localise(frame);
   if (!local) return std::nullopt;
-  const Told told = process_.Tell(kernel_, local->feature);
+  std::array<double, kMaxFrames> column;
+  for (std::size_t i = 0; i < seen_.size(); ++i) column[i] = kernel_(local->feature, seen_[i]);
+  const Told told =
+      process_.Tell(std::span(column).first(seen_.size()), kernel_(local->feature, local->feature));
   const double sigma = std::max(kLeastToldSigma, std::sqrt(told.variance * variance_scale_));
   // Fades out where there is nothing to tell from.
   const double sure = (1.0 - told.variance) * (1.0 - sigma * sigma / (kMostSigma * kMostSigma));

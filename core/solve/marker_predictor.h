@@ -64,14 +64,16 @@ class MarkerPredictor {
 
   /// The trained Gaussian process.
   struct Process {
-    std::vector<Feature> seen;
     std::vector<Vec3> weight;
-    std::vector<double> factor;  // Cholesky, row-major, seen.size() squared
+    std::vector<double> factor;  // Cholesky, row-major, weight.size() squared
 
-    Told Tell(const Kernel& kernel, const Feature& feature) const;
+    /// `column`: the kernel of what is asked with all that was learnt, used up; `self`: with
+    /// itself.
+    Told Tell(std::span<double> column, double self) const;
   };
-  static Process Train(const Kernel& kernel, std::span<const Feature> seen,
-                       std::span<const Vec3> target, std::span<const std::size_t> rows);
+  /// From the frames `rows` of all, of which `kernel` is the square matrix.
+  static Process Train(std::span<const double> kernel, std::span<const Vec3> target,
+                       std::span<const std::size_t> rows);
 
   struct Local;
   std::optional<Local> Localise(const MarkerFrame& frame) const;
@@ -84,6 +86,7 @@ class MarkerPredictor {
   Vec3 mean_{0.0};                         // of the marker, in the shape's frame
   Kernel kernel_;
   double variance_scale_ = 0.0;  // metres^2 per unit of the process's variance
+  std::vector<Feature> seen_;
   Process process_;
 };
 
