@@ -14,8 +14,10 @@ namespace {
 constexpr double kUsableReach = 0.975;
 /// Rise over leg length that makes the leg that needs less of it e times as heavy.
 constexpr double kLowerLegWins = 0.3;
-/// Way to the standing place, over the leg's length, at which it is given up.
-constexpr double kGivesUp = 0.7;
+/// Way to the standing place, over the leg's length, from which on it counts less, and at which it
+/// is given up.
+constexpr double kTooFar = 0.1;
+constexpr double kGivesUp = 0.8;
 /// Metres below which a foot is as near to the ground as counts.
 constexpr double kContactGap = 0.0004;
 
@@ -75,7 +77,7 @@ void LockStance(AdaptState& state, Limb leg) {
   // beside its own hip, nothing that it could do looks like standing.
   const Vec3 ground_end = DenormalizeGround(state, leg);
   const double off = glm::distance(ground_end, end) / chain.Reach();
-  const double held = lock * (1.0 - Smoothstep(off / kGivesUp));
+  const double held = lock * (1.0 - Smoothstep((off - kTooFar) / (kGivesUp - kTooFar)));
   state.Apply(leg, ReachEnd(chain, posture, glm::mix(end, ground_end, held)));
 }
 
