@@ -58,10 +58,13 @@ SampleLattice LatticeOf(const PersonShape& shape) {
     const bool near_cuff = x > cuff - 2.5 * trim && x < cuff + trim;
     return std::min(glm::mix(1.0, hand_along, on_hand(x)), near_cuff ? 0.85 * trim / cell : 1.0);
   };
-  const auto hand_scale = [=](double x) {
+  // Beside the arm the lattice is what it is elsewhere: legs lie below.
+  const double beside_hand = 0.15 * m.hand_length / hand_fine;
+  const auto hand_scale = [=](double x, double y) {
     const double lower =
         SmoothStep(armpit, std::max(armpit, wrist.x - forearm) + 0.2 * forearm, std::abs(x));
-    return glm::mix(glm::mix(1.0, forearm_fine, lower), hand_fine, on_hand(x));
+    const double on_arm = glm::mix(glm::mix(1.0, forearm_fine, lower), hand_fine, on_hand(x));
+    return glm::mix(on_arm, 1.0, SmoothStep(beside_hand, 2.5 * beside_hand, std::abs(y - wrist.y)));
   };
   const auto head_scale = [=](double x, double y) {
     const double above = SmoothStep(neck, face, y);
@@ -97,7 +100,7 @@ SampleLattice LatticeOf(const PersonShape& shape) {
              [&](double) { return cell; });
   const double head_z = shape.HeadDepth();
   lattice.place = [=](const Vec3& p) {
-    const double hand = hand_scale(p.x);
+    const double hand = hand_scale(p.x, p.y);
     const double head = head_scale(p.x, p.y);
     const Vec3 q{p.x * head, wrist.y + (p.y - wrist.y) * hand, wrist.z + (p.z - wrist.z) * hand};
     const double leg = leg_scale(p.y);
