@@ -129,7 +129,7 @@ void StagePicture::AddAvatar(const StageFrame& frame, std::size_t index, const O
   figure.name = drawn.plate;
   figure.color = drawn.member.color;
   if (overlays.bodies) {
-    PoseNodes(drawn.member.character->rig, pose, drawn.node_global);
+    PoseNodes(drawn.member.character->rig, pose, frame.avatars[index].pose.hand, drawn.node_global);
     if (scale != 1.0) {
       // About the stage's origin, so that soles on the ground stay on it.
       for (Mat4& node : drawn.node_global) {

@@ -144,12 +144,19 @@ Result<void> Put(GltfDocument& document, std::span<const int> node_of, const Cha
   const std::vector<bool> carried = Carried(character);
   const int hips = rig.node[Index(HumanoidJoint::kHips)];
 
+  // A finger joint moves in its hand, if any hand is ever bent.
+  const bool hands_bend = std::any_of(poses.begin(), poses.end(), [](const Pose& pose) {
+    return pose.hand != std::array<HandShape, 2>{};
+  });
+  const auto finger = [&](std::size_t n) {
+    return hands_bend && !rig.fingers.joint_of.empty() ? rig.fingers.joint_of[n] : -1;
+  };
   std::vector<Track> tracks;
   for (std::size_t n = 0; n < count; ++n) {
     if (!carried[n] || IsSkinnedMesh(root["nodes"][At(node_of[n])])) continue;
     const int parent = joints[n].parent;
-    const bool rides =
-        parent >= 0 && carried[At(parent)] && rig.driver[At(parent)] == rig.driver[n];
+    const bool rides = parent >= 0 && carried[At(parent)] &&
+                       rig.driver[At(parent)] == rig.driver[n] && finger(At(parent)) == finger(n);
     if (!rides) tracks.push_back({n, static_cast<int>(n) == hips, {}, {}});
     // A hips node below a node that the hips carry has no motion of its own.
     if (rides && static_cast<int>(n) == hips) tracks.push_back({n, true, {}, {}});
@@ -166,7 +173,7 @@ Result<void> Put(GltfDocument& document, std::span<const int> node_of, const Cha
                 "writing the animation")) {
       return Error{"cancelled"};
     }
-    PoseNodes(rig, ForwardKinematics(rig.skeleton, poses[f]), posed);
+    PoseNodes(rig, poses[f], posed);
     for (std::size_t n = 0; n < count; ++n) {
       if (!carried[n]) posed[n] = rig.canonical_global[n];
     }

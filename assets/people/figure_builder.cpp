@@ -154,6 +154,7 @@ void FigureBuilder::AddNodes(const Skeleton& skeleton) {
         add_node(prefix + "ToeTip", static_cast<int>(Index(toes)),
                  position[Index(toes)] + Vec3{0.0, 0.0, 0.29 * parameters_.foot_length}, toes);
   }
+  c.rig.fingers = FindFingers(c.nodes, c.rig.driver, c.rig.canonical_global);
 }
 
 glm::vec3 FigureBuilder::ColorOf(Region region) const {

@@ -23,6 +23,7 @@ class CopyMethod : public RetargetMethod {
   void Adapt(const Body& avatar, Pose& out) const override {
     EGO_CHECK(performer_ != nullptr);
     CopyJointAngles(*performer_, pose_, avatar, out);
+    out.hand = pose_.hand;
   }
 
  private:
@@ -39,11 +40,13 @@ class EgocentricMethod : public RetargetMethod {
   std::string_view name() const override { return name_; }
   void SetPerformerPose(const Body& performer, const Pose& pose) override {
     Normalize(performer, pose, normalize_, egocentric_);
+    hand_ = pose.hand;
     ready_ = true;
   }
   void Adapt(const Body& avatar, Pose& out) const override {
     EGO_CHECK(ready_);
     ego::Adapt(avatar, egocentric_, adapt_, out);
+    out.hand = hand_;
   }
 
  private:
@@ -51,6 +54,7 @@ class EgocentricMethod : public RetargetMethod {
   NormalizeSettings normalize_;
   AdaptSettings adapt_;
   EgocentricPose egocentric_;
+  std::array<HandShape, 2> hand_{};
   bool ready_ = false;
 };
 

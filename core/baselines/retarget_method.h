@@ -23,8 +23,8 @@ class RetargetMethod {
   /// Reads one posture. `performer` must outlive the following `Adapt` calls.
   virtual void SetPerformerPose(const Body& performer, const Pose& pose) = 0;
 
-  /// Writes the posture on `avatar`. May be called from several threads at once for different
-  /// outputs.
+  /// Writes the posture on `avatar`; fingers bend as the performer's. May be called from several
+  /// threads at once for different outputs.
   virtual void Adapt(const Body& avatar, Pose& out) const = 0;
 };
 

@@ -39,6 +39,32 @@ void PoseNodes(const Rig& rig, const ModelPose& pose, std::span<Mat4> node_globa
   }
 }
 
+void PoseNodes(const Rig& rig, const ModelPose& pose, const std::array<HandShape, 2>& hand,
+               std::span<Mat4> node_global) {
+  PoseNodes(rig, pose, node_global);
+  constexpr std::array<HandShape, 2> kFlat{};
+  std::array<Mat4, kMostFingerJoints> bent;
+  const std::size_t count = rig.fingers.joints.size();
+  if (count == 0 || hand == kFlat) return;
+  BendFingers(rig.fingers, hand, std::span(bent).first(count));
+  std::array<Mat4, 2> motion;
+  const std::array<Vec3, kJointCount> canonical = CanonicalPositions(rig.skeleton);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::size_t j = Index(side == 0 ? HumanoidJoint::kLeftHand : HumanoidJoint::kRightHand);
+    motion[side] = glm::mat4_cast(pose.rotation_ws[j]);
+    motion[side][3] = Vec4(pose.position_ws[j] - pose.rotation_ws[j] * canonical[j], 1.0);
+  }
+  for (std::size_t n = 0; n < node_global.size(); ++n) {
+    if (rig.fingers.joint_of[n] < 0) continue;
+    const auto joint = static_cast<std::size_t>(rig.fingers.joint_of[n]);
+    node_global[n] = motion[rig.fingers.joints[joint].side] * bent[joint] * rig.canonical_global[n];
+  }
+}
+
+void PoseNodes(const Rig& rig, const Pose& pose, std::span<Mat4> node_global) {
+  PoseNodes(rig, ForwardKinematics(rig.skeleton, pose), pose.hand, node_global);
+}
+
 Rig BuildRig(const JointTree& tree, std::span<const Mat4> rest_global, const HumanoidMap& map,
              const Alignment& alignment, const std::vector<bool>& deforms) {
   const std::size_t count = tree.joints.size();
@@ -83,6 +109,7 @@ Rig BuildRig(const JointTree& tree, std::span<const Mat4> rest_global, const Hum
     }
     rig.canonical_global[n] = canonical_from_rest[Index(rig.driver[n])] * rest_global[n];
   }
+  rig.fingers = FindFingers(tree, rig.driver, rig.canonical_global);
   return rig;
 }
 

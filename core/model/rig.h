@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/math.h"
+#include "core/model/finger_rig.h"
 #include "core/skeleton/humanoid.h"
 #include "core/skeleton/humanoid_map.h"
 #include "core/skeleton/joint_tree.h"
@@ -20,7 +21,7 @@ namespace ego {
 /// Every node hangs rigidly on one humanoid joint, its driver: the nearest mapped ancestor or
 /// itself. With M the node's transform in the canonical pose and H the driver's rigid motion
 /// away from the canonical pose, the posed node is H * M, exactly, whatever axes, scales, helper
-/// joints and missing joints the rig has:
+/// joints and missing joints the rig has (H * F * M where a finger bends by F):
 ///   H_j = translate(p_j) * rotate(R_j) * translate(-c_j),  c_j = canonical position of joint j.
 struct Rig {
   Skeleton skeleton;                   // metres, ground at y = 0
@@ -28,11 +29,17 @@ struct Rig {
   std::vector<HumanoidJoint> driver;   // per node
   std::vector<Mat4> canonical_global;  // per node: M, stage space, metres
   double metres_per_unit = 1.0;        // how the file's unit was read
+  FingerRig fingers;
 };
 
 /// World transforms (file units to metres) of all nodes for a posed skeleton. `node_global` has
-/// one entry per node.
+/// one entry per node. Hands stay flat.
 void PoseNodes(const Rig& rig, const ModelPose& pose, std::span<Mat4> node_global);
+/// The same with bent fingers, left and right hand.
+void PoseNodes(const Rig& rig, const ModelPose& pose, const std::array<HandShape, 2>& hand,
+               std::span<Mat4> node_global);
+/// All of a pose.
+void PoseNodes(const Rig& rig, const Pose& pose, std::span<Mat4> node_global);
 
 /// Puts a joint tree on its aligned skeleton. A node's driver is its nearest mapped ancestor (or
 /// itself). A node that deforms a mesh but has no mapped ancestor below the hips although it

@@ -41,6 +41,7 @@ Pose Mirrored(const Pose& pose) {
     const Quat& q = pose.rotation_ls[i];
     mirrored.rotation_ls[Index(Mirror(static_cast<HumanoidJoint>(i)))] = {q.w, q.x, -q.y, -q.z};
   }
+  mirrored.hand = {pose.hand[1], pose.hand[0]};
   return mirrored;
 }
 

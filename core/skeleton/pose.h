@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/skeleton/hand_shape.h"
 #include "core/skeleton/humanoid.h"
 #include "core/skeleton/skeleton.h"
 
@@ -15,6 +16,8 @@ struct Pose {
   /// Rotation of each joint relative to its parent; identity in the canonical pose. For the hips:
   /// the rotation in world space.
   std::array<Quat, kJointCount> rotation_ls = Filled();
+  /// How the fingers are bent, left and right. Rides along: no method reads it.
+  std::array<HandShape, 2> hand{};
 
  private:
   static constexpr std::array<Quat, kJointCount> Filled() {
