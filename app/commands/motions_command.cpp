@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "app/commands/command.h"
+#include "app/commands/motion_strip.h"
 #include "app/commands/terminal.h"
 #include "assets/files/file_io.h"
 #include "assets/motions/motion_check.h"
 #include "assets/motions/motion_script_file.h"
 #include "assets/motions/motions.h"
 #include "core/baselines/retarget_method.h"
+#include "render/png.h"
 
 namespace ego {
 namespace {
@@ -29,6 +31,10 @@ struct Arguments {
   bool list = false;
   bool source_only = false;
   double rate_hz = 20.0;
+  fs::path strips;
+  std::vector<std::string> people = {"Child", "Alien", "Big belly"};
+  std::string method = "mdb";
+  MotionStrips::Look look{8, 150, 25.0};
 };
 
 // A member of the cast who does what the performer does.
@@ -65,6 +71,7 @@ std::vector<FollowerGap> MeasureFollowers(const MotionScript& script,
     }
     for (std::size_t c = 0; c < player.contacts().size(); ++c) {
       const TrueContact& contact = player.contacts()[c];
+      if (contact.plate_ws) continue;  // stands where the performer's is
       const double length = contact.to_s - contact.from_s;
       const int steps = static_cast<int>(std::ceil(length * rate_hz));
       for (int i = 0; i <= steps; ++i) {
@@ -172,6 +179,37 @@ Result<std::vector<MotionScript>> ScriptsOf(const Arguments& arguments) {
   return scripts;
 }
 
+// Writes one picture per motion: the performer and those who follow.
+int DrawStrips(const Arguments& arguments, const std::vector<MotionScript>& scripts) {
+  std::vector<std::unique_ptr<Person>> followers;
+  std::vector<const Person*> people = {&ScriptedPerformer()};
+  for (const std::string& name : arguments.people) {
+    const std::vector<PersonParameters> cast = StudioCast();
+    const auto found =
+        std::find_if(cast.begin(), cast.end(), [&](const auto& p) { return p.name == name; });
+    if (found == cast.end()) return Fail("--with " + name + ": nobody in the cast has this name");
+    followers.push_back(std::make_unique<Person>(MakePerson(*found)));
+    people.push_back(followers.back().get());
+  }
+  std::error_code error;
+  fs::create_directories(arguments.strips, error);
+  if (error) return Fail(arguments.strips.string() + ": this folder cannot be made");
+  Result<MotionStrips> strips = MotionStrips::Create(people, arguments.method);
+  if (!strips) return Fail(strips.error());
+  ProgressLine line("drawing");
+  for (std::size_t i = 0; i < scripts.size(); ++i) {
+    const MotionScript& script = scripts[i];
+    line.Show(static_cast<double>(i) / static_cast<double>(scripts.size()), script.name);
+    const Result<Image> sheet = strips->Draw(script, arguments.look);
+    if (!sheet) return Fail(sheet.error());
+    const std::string stem = (script.study.empty() ? "" : script.study + "_") + script.name;
+    const Result<void> written =
+        WriteFileAtomically(arguments.strips / (stem + ".png"), EncodePng(*sheet));
+    if (!written) return Fail(written.error());
+  }
+  return kDone;
+}
+
 int Motions(const Arguments& arguments) {
   const Result<std::vector<MotionScript>> scripts = ScriptsOf(arguments);
   if (!scripts) return Fail(scripts.error());
@@ -182,6 +220,7 @@ int Motions(const Arguments& arguments) {
     }
     return kDone;
   }
+  if (!arguments.strips.empty()) return DrawStrips(arguments, *scripts);
   std::vector<std::unique_ptr<Follower>> cast;
   if (!arguments.source_only) {
     const std::vector<PersonParameters> everyone = DemoCast();
@@ -238,6 +277,25 @@ Command AddMotionsCommand(CLI::App& program) {
       ->check(CLI::Range(1.0, 240.0))
       ->capture_default_str();
   line->add_option("--report", arguments->report, "Also write all figures, .json");
+  line->add_option("--strips", arguments->strips,
+                   "Instead draw each motion into this folder, .png: a row for the performer and "
+                   "one for each follower");
+  line->add_option("--with", arguments->people,
+                   "With --strips: a member of the cast who follows; may be repeated")
+      ->allow_extra_args(false);
+  line->add_option("--method", arguments->method, "With --strips: how they follow")
+      ->check(CLI::IsMember({"mdb", "paper", "copy"}))
+      ->capture_default_str();
+  line->add_option("--columns", arguments->look.columns, "With --strips: so many instants")
+      ->check(CLI::Range(1, 60))
+      ->capture_default_str();
+  line->add_option("--cell", arguments->look.cell_height, "With --strips: height of a row, pixels")
+      ->check(CLI::Range(32, 800))
+      ->capture_default_str();
+  line->add_option("--yaw", arguments->look.yaw,
+                   "With --strips: degrees by which the camera stands to the performer's left")
+      ->check(CLI::Range(-180.0, 180.0))
+      ->capture_default_str();
   line->footer(
       "For each motion: which hand or foot touches what, and when; how deep the performer's skin "
       "sinks into itself (skinned mesh; limbs against the body without that limb; the folds at "
@@ -247,6 +305,7 @@ Command AddMotionsCommand(CLI::App& program) {
       "Examples:\n"
       "  egostudio motions --list\n"
       "  egostudio motions --motion M7 --report m7.json\n"
+      "  egostudio motions --strips pictures --columns 10\n"
       "  egostudio motions --motion my_motion.json --source-only");
   return {line, [arguments] { return Motions(*arguments); }};
 }

@@ -60,12 +60,20 @@ void MeasureContact(const MotionFigure& figure, const TrueContact& contact, doub
                     const ModelPose& model, const SkinMeasure& probe, ContactGap& gap) {
   const Vec3 face = PosePoint(figure.canonical(), model, contact.of,
                               figure.FaceOf(contact.face, contact.side).position_ms);
-  const Vec3 place =
-      figure.Posed(figure.At(PlaceAt(contact, time), contact.side), model).position_ms;
-  const double distance = probe.Gap(face, LimbThatTouches(contact));
+  double distance = 0.0;
+  double off_place = 0.0;
+  if (contact.plate_ws) {
+    distance = face.y - *contact.plate_ws;
+    off_place = std::abs(distance);
+  } else {
+    const Vec3 place =
+        figure.Posed(figure.At(PlaceAt(contact, time), contact.side), model).position_ms;
+    distance = probe.Gap(face, LimbThatTouches(contact));
+    off_place = glm::distance(face, place);
+  }
   const auto n = static_cast<double>(gap.samples);
   gap.mean_abs = (n * gap.mean_abs + std::abs(distance)) / (n + 1.0);
-  gap.off_place = (n * gap.off_place + glm::distance(face, place)) / (n + 1.0);
+  gap.off_place = (n * gap.off_place + off_place) / (n + 1.0);
   gap.widest = std::max(gap.widest, distance);
   gap.deepest = std::max(gap.deepest, -distance);
   ++gap.samples;

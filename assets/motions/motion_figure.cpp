@@ -81,6 +81,7 @@ FigureSurface SurfaceOf(const Character& character) {
 MotionFigure::MotionFigure(const Person& person)
     : person_(person),
       surface_(SurfaceOf(person.character)),
+      rigid_skin_(person.character),
       canonical_(CanonicalPositions(person.body.skeleton)) {
   leg_scale_ = canonical_[Index(J::kLeftUpperLeg)].y / kHipHeight;
   arm_scale_ =
@@ -176,7 +177,9 @@ MotionFigure::Ray MotionFigure::RayTo(const BodyPlace& place, std::size_t side) 
 SkinPoint MotionFigure::SampleSkin(SamplePoint sample) const {
   const Vec3& p = body().surface.sample_ms[Index(sample)];
   SkinPoint point{p, kUp, body().surface.attachment[Index(sample)]};
-  double best = 1e9;
+  // Of the skin about the point: a single triangle may be the edge of a hem.
+  constexpr double kAbout = 0.02;
+  Vec3 normal{0.0};
   for (const auto& t : surface_.triangles) {
     const Vec3& a = surface_.position_ms[t[0]];
     if (glm::distance(a, p) > 0.1) continue;
@@ -184,11 +187,9 @@ SkinPoint MotionFigure::SampleSkin(SamplePoint sample) const {
         Triangle::Of(a, surface_.position_ms[t[1]], surface_.position_ms[t[2]]);
     const double distance =
         glm::distance(p, AtBarycentric(triangle, ClosestOnTriangle(triangle, p)));
-    if (distance < best) {
-      best = distance;
-      point.normal_ms = triangle.normal;
-    }
+    if (distance < kAbout) normal += (1.0 - distance / kAbout) * triangle.area * triangle.normal;
   }
+  if (glm::length(normal) > 0.0) point.normal_ms = glm::normalize(normal);
   return point;
 }
 

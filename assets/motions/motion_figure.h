@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assets/motions/motion_script.h"
+#include "assets/motions/rigid_skin.h"
 #include "assets/people/person.h"
 #include "assets/people/person_body.h"
 #include "core/skeleton/pose.h"
@@ -48,6 +49,9 @@ class MotionFigure {
   /// toes bent relative to the foot.
   double AnkleHeight(std::size_t side, const Quat& foot, const Quat& toes) const;
 
+  /// Of the whole character, for keeping limbs out of it.
+  const RigidSkin& rigid_skin() const { return rigid_skin_; }
+
   /// Lengths of this body relative to the one scripts are written for.
   double leg_scale() const { return leg_scale_; }
   double arm_scale() const { return arm_scale_; }
@@ -62,6 +66,7 @@ class MotionFigure {
 
   const Person& person_;
   FigureSurface surface_;
+  RigidSkin rigid_skin_;
   std::array<Vec3, kJointCount> canonical_;
   std::array<std::array<FacePoint, 7>, 2> faces_;
   std::vector<Vec3> seat_;                      // relative to the hips joint

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "assets/motions/keyed_curve.h"
-#include "core/geometry/closest_point.h"
-#include "core/metrics/surface_gap.h"
 
 namespace ego {
 namespace {
@@ -18,54 +16,18 @@ double Ease(double t) {
   return u * u * u * (10.0 - u * (15.0 - 6.0 * u));
 }
 
-Vec3 Sided(const Vec3& v, std::size_t side) { return side == 0 ? v : Vec3{-v.x, v.y, v.z}; }
-
-/// How deep the capsules of an arm, the half of the upper arm at the shoulder aside, lie in trunk,
-/// head and legs made thicker by `margin`, metres.
-double ArmDepthAt(const MeasuredBody& body, std::size_t side, const Vec3& shoulder,
-                  const Vec3& elbow, const Vec3& wrist, double margin) {
-  const auto& radius = body.body->surface.limb_radius;
-  const std::size_t upper = 2 * side;
-  double deepest = 0.0;
-  const auto probe = [&](const Vec3& p, double r) {
-    double distance = std::min(TrunkDistance(body, p), HeadDistance(body, p));
-    for (std::size_t s = 4; s < kSegmentCount; ++s) {
-      const auto segment = static_cast<LimbSegment>(s);
-      const Vec3& a = body.pose.Position(StartJoint(segment));
-      const Vec3& b = body.pose.Position(EndJoint(segment));
-      distance = std::min(distance,
-                          glm::distance(p, glm::mix(a, b, ClosestOnSegment(p, a, b))) - radius[s]);
-    }
-    deepest = std::max(deepest, r + margin - distance);
-  };
-  for (const double t : {0.55, 0.75, 1.0}) probe(glm::mix(shoulder, elbow, t), radius[upper]);
-  for (const double t : {0.25, 0.5, 0.75}) probe(glm::mix(elbow, wrist, t), radius[upper + 1]);
-  return deepest;
-}
-
 /// Seconds that a channel goes before the hands.
 constexpr double kHeadLead = 0.10;
 constexpr double kHipsLead = 0.07;
 constexpr double kSpineLead = 0.04;
 
-bool TouchesOtherLimb(const EndGoal& goal, bool foot) {
-  if (!goal.touches || !goal.place.other) return false;
-  const BodyPart part = goal.place.part;
-  const bool leg = part == BodyPart::kThigh || part == BodyPart::kCalf || part == BodyPart::kFoot;
-  return leg == foot;
-}
-
-bool SamePart(const EndGoal& a, const EndGoal& b) {
-  return a.touches && b.touches && a.place.part == b.place.part && a.place.other == b.place.other &&
-         a.face == b.face;
-}
-
-using GoalNumbers = std::array<double, 12>;
+using GoalNumbers = std::array<double, 13>;
 /// What of a touch changes while it slides.
 GoalNumbers SlidingNumbers(const EndGoal& g) {
   return {g.place.along, g.place.toward.x, g.place.toward.y, g.place.toward.z,
           g.pointing.x,  g.pointing.y,     g.pointing.z,     g.pole.x,
-          g.pole.y,      g.pole.z,         g.tilt,           g.lift};
+          g.pole.y,      g.pole.z,         g.tilt,           g.lift,
+          g.lean};
 }
 EndGoal WithSliding(EndGoal g, const GoalNumbers& n) {
   g.place.along = n[0];
@@ -74,6 +36,7 @@ EndGoal WithSliding(EndGoal g, const GoalNumbers& n) {
   g.pole = {n[7], n[8], n[9]};
   g.tilt = n[10];
   g.lift = n[11];
+  g.lean = n[12];
   return g;
 }
 
@@ -104,6 +67,15 @@ ArmNumbers NumbersOf(const ArmTarget& t, const Quat& near) {
 
 }  // namespace
 
+bool MotionPlayer::SamePart(const EndGoal& a, const EndGoal& b) {
+  return a.touches && b.touches && a.place.part == b.place.part && a.place.other == b.place.other &&
+         a.face == b.face;
+}
+
+double MotionPlayer::Swerving(double share) {
+  return Ease(share / 0.35) * Ease((1.0 - share) / 0.35);
+}
+
 MotionPlayer::MotionPlayer(const MotionFigure& figure, const MotionScript& script)
     : figure_(figure), script_(script), solver_(figure) {
   const Vec3& hips = figure.canonical()[Index(J::kHips)];
@@ -121,7 +93,8 @@ MotionPlayer::MotionPlayer(const MotionFigure& figure, const MotionScript& scrip
     }
     keys_.push_back(std::move(key));
   }
-  ClearElbows();
+  ClearKeys();
+  ClearWays();
   FindContacts();
 }
 
@@ -214,6 +187,24 @@ LegTarget MotionPlayer::LegAt(const Span& span, std::size_t side, const ModelPos
   return mixed;
 }
 
+EndGoal MotionPlayer::SlidingGoal(const Span& span, std::size_t side) const {
+  const auto goal = [&](std::size_t i) -> const EndGoal& {
+    return span.key[i]->posture.hand[side];
+  };
+  // A hand rests where it comes to the skin and before it leaves.
+  const std::size_t before = goal(1).slide && SamePart(goal(0), goal(1)) ? 0 : 1;
+  const std::size_t after = goal(3).slide && SamePart(goal(2), goal(3)) ? 3 : 2;
+  KeyedCurve curve;
+  curve.now = span.time;
+  std::array<GoalNumbers, 4> numbers;
+  const std::array<std::size_t, 4> index = {before, 1, 2, after};
+  for (std::size_t i = 0; i < 4; ++i) {
+    curve.time[i] = span.key[index[i]]->time;
+    numbers[i] = SlidingNumbers(goal(index[i]));
+  }
+  return WithSliding(goal(1), curve.At(numbers));
+}
+
 ArmTarget MotionPlayer::ArmAt(const Span& span, std::size_t side, const ModelPose& model) const {
   const auto goal = [&](std::size_t i) -> const EndGoal& {
     return span.key[i]->posture.hand[side];
@@ -227,17 +218,20 @@ ArmTarget MotionPlayer::ArmAt(const Span& span, std::size_t side, const ModelPos
   for (std::size_t i = 0; i < 4; ++i) curve.time[i] = span.key[i]->time;
   const bool slides = goal(2).slide && SamePart(goal(1), goal(2));
   // A hand rests on the skin when it comes and before it goes.
-  const bool through1 = slides ? goal(1).slide && SamePart(goal(0), goal(1)) : !goal(1).touches;
-  const bool through2 = slides ? goal(3).slide && SamePart(goal(2), goal(3)) : !goal(2).touches;
-  const std::size_t before = through1 ? 0 : 1;
-  const std::size_t after = through2 ? 3 : 2;
+  const std::size_t before = goal(1).touches ? 1 : 0;
+  const std::size_t after = goal(2).touches ? 2 : 3;
   curve.time[0] = curve.time[before];
   curve.time[3] = curve.time[after];
+  const double way = (curve.now - span.key[1]->time) / (span.key[2]->time - span.key[1]->time);
   if (slides) {
-    const EndGoal now = WithSliding(
-        goal(1), curve.At(std::array{SlidingNumbers(goal(before)), SlidingNumbers(goal(1)),
-                                     SlidingNumbers(goal(2)), SlidingNumbers(goal(after))}));
-    return solver_.TargetOf(now, figure_.At(now.place, side), side, model);
+    const EndGoal now = SlidingGoal(span, side);
+    const SkinPoint skin = figure_.At(now.place, side);
+    const ArmTarget straight = solver_.TargetOf(now, skin, side, model);
+    const GoalTurn& turn = span.key[2]->slide_turn[side];
+    if (turn == GoalTurn{}) return straight;
+    return solver_.TargetOf(GoalClearing::Turned(now, turn, Swerving(way), side, skin,
+                                                 GoalClearing::ArmAxis(straight, side, model)),
+                            skin, side, model);
   }
   const ArmTarget a = target(1);
   const ArmTarget b = target(2);
@@ -258,7 +252,29 @@ ArmTarget MotionPlayer::ArmAt(const Span& span, std::size_t side, const ModelPos
   out /= std::max(glm::length(out), 0.05);
   mixed.wrist += middle * glm::distance(a.wrist, b.wrist) *
                  (goal(2).arc * out + 0.3 * glm::mix(a.away, b.away, share));
+  const Quat& chest = model.Rotation(J::kUpperChest);
+  mixed.wrist += Swerving(way) * (chest * span.key[2]->swerve[side]);
+  mixed.elbow += Swerving(way) * (chest * span.key[2]->elbow_swerve[side]);
   return mixed;
+}
+
+HandShape MotionPlayer::FingersAt(const Span& span, std::size_t side) const {
+  KeyedCurve curve;
+  curve.now = span.time;
+  std::array<std::array<double, 2 * HandShape::kDigits>, 4> values;
+  for (std::size_t i = 0; i < 4; ++i) {
+    curve.time[i] = span.key[i]->time;
+    for (std::size_t d = 0; d < HandShape::kDigits; ++d) {
+      values[i][2 * d] = span.key[i]->fingers[side].digit[d].bend;
+      values[i][2 * d + 1] = span.key[i]->fingers[side].digit[d].curl;
+    }
+  }
+  const auto now = curve.At(values);
+  HandShape shape;
+  for (std::size_t d = 0; d < HandShape::kDigits; ++d) {
+    shape.digit[d] = {now[2 * d], now[2 * d + 1]};
+  }
+  return shape;
 }
 
 Pose MotionPlayer::BodyPose(const BodyGoals& body, const Vec3& root_ws) const {
@@ -285,79 +301,19 @@ Pose MotionPlayer::At(double time) const {
   const BodyGoals body = BodyAt(time, root_ws);
   Pose pose = BodyPose(body, root_ws);
   const Span span = SpanAt(time);
-  const auto second = [&](bool foot, std::size_t side) {
-    return std::any_of(span.key.begin(), span.key.end(), [&](const Key* key) {
-      return TouchesOtherLimb(foot ? key->posture.foot[side] : key->posture.hand[side], foot);
-    });
-  };
   // What is touched is placed first: legs before arms, a limb that touches its partner last.
-  for (const bool foot : {true, false}) {
-    const std::size_t last = second(foot, 0) ? 0 : 1;
-    for (const std::size_t side : {1 - last, last}) {
-      const ModelPose model = ForwardKinematics(figure_.body().skeleton, pose);
-      if (foot) {
-        solver_.PlaceLeg(side, LegAt(span, side, model), model, pose);
-      } else {
-        solver_.PlaceArm(side, ArmAt(span, side, model), model, pose);
-      }
-    }
+  PlaceLegs(span, pose);
+  const std::size_t last = LastPlaced(span, false);
+  for (const std::size_t side : {1 - last, last}) {
+    const ModelPose model = ForwardKinematics(figure_.body().skeleton, pose);
+    solver_.PlaceArm(side, ArmAt(span, side, model), model, pose);
   }
+  for (std::size_t side = 0; side < 2; ++side) pose.hand[side] = FingersAt(span, side);
   for (Quat& q : pose.rotation_ls) {
     q = glm::normalize(q);
     if (q.w < 0.0) q = -q;
   }
   return pose;
-}
-
-void MotionPlayer::ClearElbows() {
-  // The crude surfaces lie a little within the skin.
-  constexpr double kMargin = 0.012;
-  constexpr double kTurn = 8.0;  // degrees
-  constexpr int kTurns = 10;
-  std::array<EndGoal, 2> written_first;
-  std::array<EndGoal, 2> written_before;
-  for (std::size_t k = 0; k < keys_.size(); ++k) {
-    Key& key = keys_[k];
-    Pose pose = BodyPose(key.posture, key.root_ws);
-    const Span span{{&key, &key, &key, &key}, key.time};
-    const std::size_t last_leg = TouchesOtherLimb(key.posture.foot[0], true) ? 0 : 1;
-    for (const std::size_t side : {1 - last_leg, last_leg}) {
-      const ModelPose model = ForwardKinematics(figure_.body().skeleton, pose);
-      solver_.PlaceLeg(side, LegAt(span, side, model), model, pose);
-    }
-    const std::size_t last_arm = TouchesOtherLimb(key.posture.hand[0], false) ? 0 : 1;
-    for (const std::size_t side : {1 - last_arm, last_arm}) {
-      EndGoal& goal = key.posture.hand[side];
-      const EndGoal written = goal;
-      const ModelPose model = ForwardKinematics(figure_.body().skeleton, pose);
-      if (k == 0) written_first[side] = written;
-      if (k > 0 && k + 1 == keys_.size() && written == written_first[side]) {
-        goal.pole = keys_[0].posture.hand[side].pole;  // ends in the stance it began in
-      } else if (k > 0 && written == written_before[side]) {
-        goal.pole = keys_[k - 1].posture.hand[side].pole;  // a hold stays one
-      } else {
-        const ArmTarget target = ArmAt(span, side, model);
-        const MeasuredBody measured(figure_.body(), pose);
-        const Vec3 shoulder = model.Position(side == 0 ? J::kLeftUpperArm : J::kRightUpperArm);
-        const Vec3 axis = glm::normalize(target.wrist - shoulder);
-        double best_cost = 1e9;
-        for (int i = -kTurns; i <= kTurns; ++i) {
-          const Quat turn = glm::angleAxis(Radians(kTurn * i), axis);
-          const Vec3 pole = turn * target.elbow;
-          const double depth =
-              ArmDepthAt(measured, side, shoulder, solver_.ElbowOf(side, target.wrist, pole, model),
-                         target.wrist, kMargin);
-          const double cost = depth + 0.0004 * std::abs(i) * (1.0 + 0.2 * std::abs(i));
-          if (cost >= best_cost) continue;
-          best_cost = cost;
-          const Vec3 in_chest = glm::conjugate(model.Rotation(J::kUpperChest)) * pole;
-          goal.pole = i == 0 ? written.pole : Sided(in_chest, side);
-        }
-      }
-      written_before[side] = written;
-      solver_.PlaceArm(side, ArmAt(span, side, model), model, pose);
-    }
-  }
 }
 
 void MotionPlayer::FindContacts() {
@@ -366,7 +322,9 @@ void MotionPlayer::FindContacts() {
       const auto goal = [&](std::size_t i) -> const EndGoal& {
         return foot ? keys_[i].posture.foot[side] : keys_[i].posture.hand[side];
       };
-      const auto on_skin = [&](std::size_t i) { return goal(i).touches && goal(i).lift == 0.0; };
+      const auto on_skin = [&](std::size_t i) {
+        return goal(i).on_plate || (goal(i).touches && goal(i).lift == 0.0);
+      };
       for (std::size_t i = 0; i < keys_.size(); ++i) {
         if (!on_skin(i)) continue;
         TrueContact contact;
@@ -375,8 +333,15 @@ void MotionPlayer::FindContacts() {
         contact.face = goal(i).face;
         const J of = foot ? J::kLeftFoot : J::kLeftHand;
         contact.of = side == 0 ? of : Mirror(of);
-        contact.on = MotionFigure::JointOf(goal(i).place, side);
         contact.from_s = keys_[i].time;
+        if (goal(i).on_plate) {
+          contact.plate_ws = figure_.leg_scale() * goal(i).at.y;
+          while (i + 1 < keys_.size() && goal(i + 1) == goal(i)) ++i;
+          contact.to_s = keys_[i].time;
+          contacts_.push_back(std::move(contact));
+          continue;
+        }
+        contact.on = MotionFigure::JointOf(goal(i).place, side);
         contact.places.push_back({keys_[i].time, goal(i).place});
         while (i + 1 < keys_.size() && on_skin(i + 1) &&
                (goal(i + 1) == goal(i) || (goal(i + 1).slide && SamePart(goal(i), goal(i + 1))))) {

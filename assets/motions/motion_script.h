@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/motions/hand_form.h"
 #include "core/base/math.h"
 #include "core/body/body_surface.h"
 
@@ -58,6 +59,7 @@ struct EndGoal {
   /// Free hand: `at`, `palm`, `pointing` and `pole` are in stage space (a plate that stands there),
   /// `at` from the standing place for hip joints 0.92 m high.
   bool on_stage = false;
+  bool on_plate = false;  // the same, and the palm lies on a level plate there
 
   // A touch: the face lies on the place, facing it, and follows the skin.
   bool touches = false;
@@ -65,6 +67,7 @@ struct EndGoal {
   TouchFace face = TouchFace::kPalm;
   double lift = 0.0;   // metres off the skin
   double tilt = 0.0;   // degrees by which fingers or toes leave the skin
+  double lean = 0.0;   // degrees by which the thumb's side leaves the skin
   bool slide = false;  // comes here along the skin from the key before, without leaving it
 
   /// Free hand: the palm, metres from the shoulder joint in the frame of the upper chest, for an
@@ -84,6 +87,7 @@ struct EndGoal {
   /// Where the elbow points, frame of the upper chest; where the knee points, world space (zero:
   /// as the foot).
   Vec3 pole{0.0};
+  HandForm form = HandForm::kRelaxed;
   /// How far a hand swings around the body on its way here, share of the distance.
   double arc = 0.2;
 
@@ -109,6 +113,8 @@ struct BodyGoals {
   std::array<Bend, 2> shoulder{};  // clavicles: pitch forward, roll up; left, right
   std::array<EndGoal, 2> hand;     // left, right
   std::array<EndGoal, 2> foot;
+
+  friend bool operator==(const BodyGoals&, const BodyGoals&) = default;
 };
 
 /// The relaxed stance in which every motion begins and ends.

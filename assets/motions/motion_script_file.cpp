@@ -124,10 +124,10 @@ void ReadPlace(const Json& object, const std::string& where, BodyPlace& place) {
 EndGoal ReadHand(const Json& object, const std::string& where) {
   EndGoal goal = StandingGoals().hand[0];
   if (object.contains("on")) {
-    OnlyFields(
-        object,
-        {"on", "along", "toward", "with", "fingers", "elbow", "lift", "tilt", "slide", "arc"},
-        where);
+    OnlyFields(object,
+               {"on", "along", "toward", "with", "fingers", "elbow", "lift", "tilt", "lean",
+                "slide", "arc", "shape"},
+               where);
     goal.touches = true;
     ReadPlace(object, where, goal.place);
     std::string face = "palm";
@@ -136,23 +136,34 @@ EndGoal ReadHand(const Json& object, const std::string& where) {
     if (goal.face >= TouchFace::kSole) Stop(where + " \"with\"", "must be a side of a hand");
     Read(object, "lift", where, goal.lift);
     Read(object, "tilt", where, goal.tilt);
+    Read(object, "lean", where, goal.lean);
+    goal.form = goal.face == TouchFace::kPalm ? HandForm::kLaid : HandForm::kFlat;
     Read(object, "slide", where, goal.slide);
   } else {
-    OnlyFields(object, {"at", "stage", "palm", "fingers", "elbow", "arc"}, where);
+    OnlyFields(object, {"at", "stage", "plate", "palm", "fingers", "elbow", "arc", "shape"}, where);
     Read(object, "at", where, goal.at);
-    goal.on_stage = Read(object, "stage", where, goal.at);
+    goal.on_plate = Read(object, "plate", where, goal.at);
+    goal.on_stage = Read(object, "stage", where, goal.at) || goal.on_plate;
+    if (goal.on_plate) goal.palm = -kUp;
+    if (goal.on_stage) goal.form = HandForm::kFlat;
     ReadDirection(object, "palm", where, goal.palm);
   }
   ReadDirection(object, "fingers", where, goal.pointing);
   ReadDirection(object, "elbow", where, goal.pole);
   Read(object, "arc", where, goal.arc);
+  std::string form;
+  Read(object, "shape", where, form);
+  if (!form.empty()) {
+    goal.form = static_cast<HandForm>(OneOf(kHandForms, form, where + " \"shape\""));
+  }
   return goal;
 }
 
 EndGoal ReadFoot(const Json& object, const std::string& where) {
   EndGoal goal = StandingGoals().foot[0];
   if (object.contains("on")) {
-    OnlyFields(object, {"on", "along", "toward", "with", "toes", "knee", "lift", "slide"}, where);
+    OnlyFields(object, {"on", "along", "toward", "with", "toes", "knee", "lift", "tilt", "slide"},
+               where);
     goal.touches = true;
     ReadPlace(object, where, goal.place);
     std::string face = "sole";
@@ -161,6 +172,7 @@ EndGoal ReadFoot(const Json& object, const std::string& where) {
     if (goal.face < TouchFace::kSole) Stop(where + " \"with\"", "must be a side of a foot");
     ReadDirection(object, "toes", where, goal.pointing);
     Read(object, "lift", where, goal.lift);
+    Read(object, "tilt", where, goal.tilt);
     Read(object, "slide", where, goal.slide);
   } else {
     OnlyFields(object, {"at", "turn", "heel", "roll", "knee"}, where);
@@ -180,7 +192,7 @@ BodyGoals ReadPosture(const Json& object, const Named& named, BodyGoals posture,
   OnlyFields(object,
              {"after", "go", "mirror", "root", "seat", "hips", "spine", "head", "leftShoulder",
               "rightShoulder", "shoulders", "leftHand", "rightHand", "hands", "leftFoot",
-              "rightFoot", "feet"},
+              "rightFoot", "feet", "off"},
              where);
   std::string name;
   Read(object, "go", where, name);
@@ -216,28 +228,58 @@ BodyGoals ReadPosture(const Json& object, const Named& named, BodyGoals posture,
         [&](const Json& value, std::size_t side, const std::string& which) {
           posture.foot[side] = ReadFoot(value, which);
         });
+  if (object.contains("off")) {
+    for (EndGoal& hand : posture.hand) {
+      if (hand.touches) hand.lift = NumberOf(object["off"], where + " \"off\"");
+    }
+  }
   bool mirror = false;
   Read(object, "mirror", where, mirror);
   return mirror ? Mirrored(posture) : posture;
 }
 
-void ReadKeys(const Json& list, const Named& named, const std::string& where, bool may_repeat,
+void ReadKeys(const Json& list, Named& named, const std::string& where, bool may_repeat,
+              std::vector<MotionKey>& keys);
+
+/// Keys that are said several times: a number of times, or once for each of some postures, which
+/// they then call "it".
+void ReadLoop(const Json& loop, Named& named, const std::string& where, bool may_repeat,
+              std::vector<MotionKey>& keys) {
+  const bool repeats = loop.contains("repeat");
+  const char* kind = repeats ? "repeat" : "for";
+  OnlyFields(loop, {kind, "keys"}, where);
+  if (!may_repeat) Stop(where + " \"" + kind + "\"", "must not stand within another one");
+  if (!loop.contains("keys")) Stop(where, "needs the \"keys\" that it repeats");
+  if (repeats) {
+    const double times = NumberOf(loop["repeat"], where + " \"repeat\"");
+    if (times < 1.0 || times > 100.0 || times != std::floor(times)) {
+      Stop(where + " \"repeat\"", "must be a whole number from 1 to 100");
+    }
+    for (int n = 0; n < static_cast<int>(times); ++n) {
+      ReadKeys(loop["keys"], named, where, false, keys);
+    }
+    return;
+  }
+  if (!loop["for"].is_array() || loop["for"].size() > 100) {
+    Stop(where + " \"for\"", "must be a list of at most 100 postures' names");
+  }
+  for (const Json& name : loop["for"]) {
+    const auto found = name.is_string() ? named.find(name.get<std::string>()) : named.end();
+    if (found == named.end()) Stop(where + " \"for\"", "names a posture not given before");
+    named["it"] = found->second;
+    ReadKeys(loop["keys"], named, where, false, keys);
+  }
+  named.erase("it");
+}
+
+void ReadKeys(const Json& list, Named& named, const std::string& where, bool may_repeat,
               std::vector<MotionKey>& keys) {
   if (!list.is_array() || list.empty()) Stop(where + ": \"keys\"", "must be a list of keys");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json& item = list[i];
     const std::string which = where + ": key " + std::to_string(i + 1);
-    if (item.is_object() && item.contains("repeat")) {
-      OnlyFields(item, {"repeat", "keys"}, which);
-      const double times = NumberOf(item["repeat"], which + " \"repeat\"");
-      if (!may_repeat || times < 1.0 || times > 100.0 || times != std::floor(times)) {
-        Stop(which + " \"repeat\"",
-             "must be a whole number from 1 to 100, and no repeat inside one");
-      }
-      if (!item.contains("keys")) Stop(which, "needs the \"keys\" that it repeats");
-      for (int n = 0; n < static_cast<int>(times); ++n) {
-        ReadKeys(item["keys"], named, which, false, keys);
-      }
+    if (item.is_object() && (item.contains("repeat") || item.contains("for"))) {
+      ReadLoop(item, named, which, may_repeat, keys);
       continue;
     }
     if (keys.size() >= kMaxKeys) Stop(where, "has more than 2000 keys");

@@ -73,8 +73,12 @@ Quat PostureSolver::LaidOn(const EndGoal& goal, const SkinPoint& posed, const Sk
   const Vec3 raised = std::cos(tilt) * pointing - std::sin(tilt) * face;
   face = std::cos(tilt) * face + std::sin(tilt) * pointing;
   pointing = raised;
-  return PairRotation(figure_.FaceOf(goal.face, side).normal_ms, canonical_pointing, face,
-                      pointing);
+  const Quat laid =
+      PairRotation(figure_.FaceOf(goal.face, side).normal_ms, canonical_pointing, face, pointing);
+  if (goal.lean == 0.0) return laid;
+  const Vec3 thumb = laid * Vec3{0.0, 0.0, 1.0};
+  const double sign = glm::dot(glm::cross(pointing, thumb), face) < 0.0 ? 1.0 : -1.0;
+  return glm::angleAxis(sign * Radians(goal.lean), pointing) * laid;
 }
 
 ArmTarget PostureSolver::TargetOf(const EndGoal& goal, const SkinPoint& skin, std::size_t side,

@@ -16,15 +16,8 @@ using J = HumanoidJoint;
 constexpr double kFarShare = 0.5;  // of upper arm and thigh
 
 int LimbOfJoint(J joint) {
-  for (const Limb limb : kLimbs) {
-    const LimbJoints joints = JointsOf(limb);
-    if (joint == joints.base || joint == joints.mid || joint == joints.end) {
-      return static_cast<int>(limb);
-    }
-  }
-  if (joint == J::kLeftToes) return static_cast<int>(Limb::kLeftLeg);
-  if (joint == J::kRightToes) return static_cast<int>(Limb::kRightLeg);
-  return -1;
+  const std::optional<Limb> limb = LimbOf(joint);
+  return limb ? static_cast<int>(*limb) : -1;
 }
 
 struct AxisBox {
@@ -58,6 +51,16 @@ bool Within(const MeshBvh& skin, const Vec3& p) {
 
 }  // namespace
 
+std::optional<Limb> LimbOf(HumanoidJoint joint) {
+  for (const Limb limb : kLimbs) {
+    const LimbJoints joints = JointsOf(limb);
+    if (joint == joints.base || joint == joints.mid || joint == joints.end) return limb;
+  }
+  if (joint == J::kLeftToes) return Limb::kLeftLeg;
+  if (joint == J::kRightToes) return Limb::kRightLeg;
+  return std::nullopt;
+}
+
 SkinMeasure::SkinMeasure(const Character& character)
     : character_(character), mesh_(CanonicalMesh(character)) {
   const std::array<Vec3, kJointCount> canonical = CanonicalPositions(character.rig.skeleton);
@@ -85,7 +88,7 @@ SkinMeasure::SkinMeasure(const Character& character)
 
 void SkinMeasure::SetPose(const Pose& pose) {
   std::vector<Mat4> nodes(character_.nodes.joints.size());
-  PoseNodes(character_.rig, ForwardKinematics(character_.rig.skeleton, pose), nodes);
+  PoseNodes(character_.rig, pose, nodes);
   mesh_ = PoseMesh(character_, nodes);
 }
 

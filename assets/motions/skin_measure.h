@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/model/character.h"
@@ -10,6 +11,9 @@
 #include "core/skeleton/pose.h"
 
 namespace ego {
+
+/// The limb that a joint moves, toes included; nothing for joints of trunk and head.
+std::optional<Limb> LimbOf(HumanoidJoint joint);
 
 /// The skinned mesh of one character in one pose, for measuring what it touches and where it sinks
 /// into itself. Exact on the triangles; not for the frame loop.

@@ -28,7 +28,7 @@ J BoneEndOf(J joint) {
 
 std::vector<Mat4> NodesOf(const Character& character, const Pose& pose) {
   std::vector<Mat4> nodes(character.nodes.joints.size());
-  PoseNodes(character.rig, ForwardKinematics(character.rig.skeleton, pose), nodes);
+  PoseNodes(character.rig, pose, nodes);
   return nodes;
 }
 

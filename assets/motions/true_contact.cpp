@@ -45,7 +45,8 @@ std::string PartName(J joint) {
 
 std::string TrueContact::Sentence() const {
   return std::string(side == 0 ? "left " : "right ") +
-         std::string(kFaceNames[static_cast<std::size_t>(face)]) + " on the " + PartName(on);
+         std::string(kFaceNames[static_cast<std::size_t>(face)]) + " on the " +
+         (plate_ws ? "plate" : PartName(on));
 }
 
 bool TrueContact::Slides() const {

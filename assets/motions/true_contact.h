@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 namespace ego {
 
 /// What is known about one touch of a scripted motion: which face of which hand or foot lies on
-/// which place of the skin, and when.
+/// which place of the skin or on a plate, and when.
 struct TrueContact {
   double from_s = 0.0;
   double to_s = 0.0;     // equal to `from_s` for a touch that lasts an instant
@@ -19,6 +20,8 @@ struct TrueContact {
   TouchFace face = TouchFace::kPalm;
   HumanoidJoint of = HumanoidJoint::kLeftHand;  // the joint that carries the face
   HumanoidJoint on = HumanoidJoint::kChest;     // the joint of the part that is touched
+  /// Not skin but a level plate is touched, its surface this high; `on` and `places` say nothing.
+  std::optional<double> plate_ws;
   /// The place at instants of the contact; more than one where the face slides.
   struct Instant {
     double time = 0.0;
