@@ -25,6 +25,7 @@ namespace {
 
 constexpr double kPitch = 7.0;  // degrees
 constexpr double kFieldOfView = 0.35;
+constexpr double kView = 1.22;  // what a row shows, in body heights: feet come towards the camera
 
 /// How far anyone comes from the hips to either side of the picture, in body heights.
 double HalfWidth(const std::vector<Pose>& poses, const Body& body, double yaw) {
@@ -78,7 +79,7 @@ Result<Image> MotionStrips::Draw(const MotionScript& script, const Look& look) {
     poses.push_back(player.At(script.Duration() * (c + 0.5) / look.columns));
   }
   const double half = std::max(0.22, HalfWidth(poses, performer.body, look.yaw) + 0.10);
-  const int width = 2 * static_cast<int>(std::ceil(half * look.cell_height / 1.12));
+  const int width = 2 * static_cast<int>(std::ceil(half * look.cell_height / kView));
 
   Image sheet;
   sheet.width = width * look.columns;
@@ -100,11 +101,11 @@ Result<Image> MotionStrips::Draw(const MotionScript& script, const Look& look) {
       view.figures = {&drawn, 1};
       view.name_plates = false;
       view.grid = false;
-      view.camera.target_ws = {pose.root_ws.x, 0.5 * person.body.height, pose.root_ws.z};
+      view.camera.target_ws = {pose.root_ws.x, 0.48 * person.body.height, pose.root_ws.z};
       view.camera.yaw = Radians(look.yaw);
       view.camera.pitch = Radians(kPitch);
       view.camera.fov_y = kFieldOfView;
-      view.camera.distance = 0.5 * 1.12 * person.body.height / std::tan(0.5 * view.camera.fov_y);
+      view.camera.distance = 0.5 * kView * person.body.height / std::tan(0.5 * view.camera.fov_y);
       const Image cell = impl_->renderer.DrawImage(view, width, look.cell_height);
       if (cell.rgba.empty()) return Error{"a picture of this size cannot be drawn here"};
       Paste(cell, c * width, static_cast<int>(row) * look.cell_height, sheet);

@@ -139,7 +139,7 @@ class EveryMotion : public testing::TestWithParam<std::size_t> {
 /// Skin in skin on the finished mesh, every limb against the body without it.
 TEST_P(EveryMotion, SinksIntoItselfByNoMoreThanFiveMillimetres) {
   constexpr double kLimit = 0.005;
-  // Known: on its way to the cheeks a thumb brushes the head, to be mended.
+  // Known: as the hand leaves the pubis the upper arm presses into the chest by 6.7 mm.
   constexpr double kLimitOfTouches = 0.0075;
   const bool touches = script().name == "touch_points";
   const MotionCheck& check = CheckOf(script());
