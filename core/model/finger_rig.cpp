@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/check.h"
+#include "core/geometry/rotation.h"
 #include "core/skeleton/joint_names.h"
 
 namespace ego {
@@ -27,25 +28,21 @@ int DigitNamed(const std::string& name) {
   return lower.find("middle") != std::string::npos ? 2 : -1;
 }
 
-Vec3 UnitOr(const Vec3& v, const Vec3& fallback) {
-  return glm::length(v) > 1e-9 ? glm::normalize(v) : fallback;
-}
-
 /// The axes of one finger from where its joints are.
 void SetAxes(std::span<FingerRig::Joint*> finger, const Vec3& tip) {
   const Vec3 palm = -kUp;
   const Vec3 out{finger[0]->side == 0 ? 1.0 : -1.0, 0.0, 0.0};
   for (std::size_t k = 0; k < finger.size(); ++k) {
     const Vec3 next = k + 1 < finger.size() ? finger[k + 1]->position_ms : tip;
-    const Vec3 along = UnitOr(next - finger[k]->position_ms, out);
+    const Vec3 along = NormalizedOr(next - finger[k]->position_ms, out);
     if (finger[k]->digit != 0) {
-      finger[k]->axis = UnitOr(glm::cross(along, palm), Vec3{0.0, 0.0, -out.x});
+      finger[k]->axis = NormalizedOr(glm::cross(along, palm), Vec3{0.0, 0.0, -out.x});
       continue;
     }
     // The thumb's first joint lays it under the palm, the others bend it across.
     const Vec3 across = k == 0 ? palm : glm::normalize(Vec3{0.0, -0.35, -1.0});
     const Vec3 from = k == 0 ? Vec3{0.0, 0.0, 1.0} : along;
-    finger[k]->axis = UnitOr(glm::cross(from, across), out);
+    finger[k]->axis = NormalizedOr(glm::cross(from, across), out);
   }
 }
 
@@ -72,7 +69,9 @@ FingerRig FindFingers(const JointTree& tree, std::span<const HumanoidJoint> driv
     if (above >= 0) {
       const FingerRig::Joint& before = rig.joints[static_cast<std::size_t>(above)];
       tip[side][before.digit] = at;
+      // Of several children only the first goes on with the finger; the others hang on it.
       if (before.segment + 1 >= kSegments || DigitNamed(tree.joints[n].name) < 0 ||
+          chain[side][before.digit][before.segment + 1] >= 0 ||
           glm::distance(at, before.position_ms) < 1e-6) {
         continue;
       }

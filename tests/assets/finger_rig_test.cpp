@@ -77,6 +77,38 @@ TEST(FingerRig, BothHandsAreMirrorImages) {
   }
 }
 
+TEST(FingerRig, FollowsOneChildWhereAFingerForks) {
+  // A hand whose fingers fork at every joint, as files may have it.
+  JointTree tree;
+  std::vector<HumanoidJoint> driver;
+  std::vector<Mat4> global;
+  const auto add = [&](int parent, const Vec3& at) {
+    Mat4 place(1.0);
+    place[3] = Vec4(at, 1.0);
+    tree.joints.push_back({.name = parent < 0 ? "LeftHand" : "LeftHandIndex", .parent = parent});
+    driver.push_back(HumanoidJoint::kLeftHand);
+    global.push_back(place);
+    return static_cast<int>(tree.joints.size()) - 1;
+  };
+  const int hand = add(-1, {0.7, 1.4, 0.0});
+  std::vector<int> level = {add(hand, {0.8, 1.4, 0.0})};
+  for (int depth = 1; depth < 6; ++depth) {
+    std::vector<int> next;
+    for (const int parent : level) {
+      for (const double z : {0.0, 0.01}) {
+        next.push_back(add(parent, {0.8 + 0.02 * depth, 1.4, z + 0.02 * (parent % 3)}));
+      }
+    }
+    level = next;
+  }
+  const FingerRig rig = FindFingers(tree, driver, global);
+  ASSERT_EQ(rig.joints.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(rig.joints[k].segment, k);
+  for (std::size_t n = 1; n < tree.joints.size(); ++n) EXPECT_GE(rig.joint_of[n], 0) << n;
+  std::vector<Mat4> motion(rig.joints.size());
+  BendFingers(rig, {Bent(0.5, 0.5), HandShape{}}, motion);
+}
+
 TEST(FingerRig, EveryMethodPassesTheFingersOn) {
   Pose pose = CanonicalPose(Performer().rig.skeleton);
   pose.hand[1] = Bent(0.5, 0.4);
