@@ -22,7 +22,8 @@ using namespace std::chrono_literals;
 constexpr std::size_t kDemoAvatars = 5;
 constexpr auto kBesideLoading = 120ms;  // from picture to picture
 constexpr auto kMessageStays = 8s;
-constexpr auto kSettles = 400ms;  // after a change the panels may need a few pictures more
+constexpr std::size_t kMostErrors = 4;  // as many as can be read at a glance
+constexpr auto kSettles = 400ms;        // after a change the panels may need a few pictures more
 
 template <class Entry>
 auto Find(std::vector<Entry>& entries, std::uint64_t id) {
@@ -171,7 +172,13 @@ void Studio::SetMethod(const std::string& name) {
 }
 
 void Studio::Say(Message::Kind kind, std::string text) {
-  message_ = Message{kind, std::move(text), std::chrono::steady_clock::now()};
+  if (kind == Message::Kind::kInfo) {
+    info_ = Message{std::move(text), std::chrono::steady_clock::now()};
+    return;
+  }
+  std::erase(errors_, text);
+  if (errors_.size() == kMostErrors) errors_.erase(errors_.begin());
+  errors_.push_back(std::move(text));
 }
 
 void Studio::RebuildScene() {
@@ -279,8 +286,8 @@ void Studio::RunFrame() {
   HandleKeys();
   if (window_->TakeCloseRequest()) AskToClose();
   changed |= stage_.Fetch();
-  if (message_ && message_->kind == Message::Kind::kInfo && now - message_->when > kMessageStays) {
-    message_.reset();
+  if (info_ && now - info_->when > kMessageStays) {
+    info_.reset();
     changed = true;
   }
   if (workspace_ == Workspace::kCalibrate) changed |= calibrate_.Advance(*this, now);

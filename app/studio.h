@@ -49,7 +49,6 @@ enum class Workspace { kCalibrate, kPerform };
 /// A sentence for the user.
 struct Message {
   enum class Kind { kInfo, kError };
-  Kind kind = Kind::kInfo;
   std::string text;
   std::chrono::steady_clock::time_point when;
 };
@@ -144,9 +143,12 @@ class Studio {
 
   // What is going on.
   BackgroundLoader& loader() { return loader_; }
-  const std::optional<Message>& message() const { return message_; }
+  /// Tells what was done, for a while, or what went wrong, until it is dismissed: of several things
+  /// that went wrong the last ones.
   void Say(Message::Kind kind, std::string text);
-  void DismissMessage() { message_.reset(); }
+  const std::optional<Message>& info() const { return info_; }
+  const std::vector<std::string>& errors() const { return errors_; }
+  void DismissErrors() { errors_.clear(); }
   double draw_hz() const { return draw_hz_; }
   Window& window() { return *window_; }
   const Window& window() const { return *window_; }
@@ -206,7 +208,8 @@ class Studio {
   bool loop_ = true;
   bool wants_playing_ = false;  // as last commanded; the frame shown may not know yet
   std::string method_;
-  std::optional<Message> message_;
+  std::optional<Message> info_;
+  std::vector<std::string> errors_;
 
   std::chrono::steady_clock::time_point last_frame_{};
   std::chrono::steady_clock::time_point last_change_{};

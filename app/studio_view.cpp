@@ -9,6 +9,11 @@
 #include "app/studio.h"
 
 namespace ego {
+namespace {
+
+constexpr double kRaisedHands = 0.2;  // of the figures' height: hands above the head stay in view
+
+}  // namespace
 
 void Studio::DrawStage() {
   const Rect& view = layout_.viewport;
@@ -57,6 +62,7 @@ void Studio::FrameWhenChanged() {
 void Studio::FrameAll() {
   Box3 box = picture_.Bounds();
   if (box.IsEmpty()) return;
+  box.max.y += kRaisedHands * (box.max.y - box.min.y);
   MakeRoomForNames(box);
   const Rect& view = layout_.viewport;
   camera_.Frame(box, {static_cast<int>(view.width), static_cast<int>(view.height)}, 0.06);

@@ -177,6 +177,7 @@ void CalibrateWorkspace::Save(Studio& studio) {
     ask_path = true;
     return;
   }
+  studio.DismissErrors();
   studio.Say(Message::Kind::kInfo, "Saved " + session()->editor().Path().string() + ".");
   Apply(studio);
 }
@@ -188,7 +189,7 @@ void CalibrateWorkspace::SaveAs(Studio& studio, const std::filesystem::path& pat
     return;
   }
   ask_path = false;
-  studio.DismissMessage();
+  studio.DismissErrors();
   studio.Say(Message::Kind::kInfo, "Saved " + path.string() + ".");
   Apply(studio);
 }

@@ -12,10 +12,11 @@
 
 namespace ego {
 
-// An error stands where the eye is until it is read.
+// Errors stand where the eye is until they are read.
 void ShowError(Studio& studio, const Rect& view) {
-  if (!studio.message() || studio.message()->kind != Message::Kind::kError) return;
-  const std::string& text = studio.message()->text;
+  if (studio.errors().empty()) return;
+  std::string text;
+  for (const std::string& error : studio.errors()) text += (text.empty() ? "" : "\n") + error;
   const float width = std::min(Px(560.0f), view.width - Px(32.0f));
   const float wrap = width - Px(64.0f);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
@@ -29,7 +30,7 @@ void ShowError(Studio& studio, const Rect& view) {
   list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {corner.x + Px(16.0f), corner.y + Px(12.0f)},
                Packed(look::kText), text.c_str(), nullptr, wrap);
   ImGui::SetCursorScreenPos({end.x - Px(36.0f), corner.y + Px(8.0f)});
-  if (SignButton("dismiss", Sign::kCross, "Dismiss")) studio.DismissMessage();
+  if (SignButton("dismiss", Sign::kCross, "Dismiss")) studio.DismissErrors();
 }
 
 void ShowNavigationMenu(Studio& studio, const Rect& view) {

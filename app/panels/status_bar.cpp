@@ -53,8 +53,8 @@ void ShowStatusBar(Studio& studio) {
     const float row = ImGui::GetCursorPosY();
     if (const auto activity = studio.loader().activity()) {
       ShowActivity(studio, *activity);
-    } else if (studio.message() && studio.message()->kind == Message::Kind::kInfo) {
-      ImGui::TextColored(Vec(look::kQuiet), "%s", studio.message()->text.c_str());
+    } else if (studio.info()) {
+      ImGui::TextColored(Vec(look::kQuiet), "%s", studio.info()->text.c_str());
     } else {
       ImGui::TextColored(Vec(look::kOff), "Ready.  ? shows all keys.");
     }

@@ -135,9 +135,16 @@ TEST(StudioWindow, PlaysStepsScrubsAndSurvivesBadFiles) {
   const std::size_t frame_before = studio.frame().frame;
   dropped(studio.window().handle(), 1, paths);
   studio.OpenFiles(studio.window().dropped());
-  ASSERT_TRUE(RunUntil(
-      studio, [&] { return studio.message() && studio.message()->kind == Message::Kind::kError; }));
-  EXPECT_NE(studio.message()->text.find("broken.glb"), std::string::npos);
+  ASSERT_TRUE(RunUntil(studio, [&] { return !studio.errors().empty(); }));
+  EXPECT_NE(studio.errors().front().find("broken.glb"), std::string::npos);
+
+  // A second one stands beside the first, and neither goes when something is done well.
+  studio.OpenFiles({folder / "absent.c3d"});
+  ASSERT_TRUE(RunUntil(studio, [&] { return studio.errors().size() == 2; }));
+  studio.Say(Message::Kind::kInfo, "Opened something.");
+  ASSERT_TRUE(Settled(studio));
+  EXPECT_NE(studio.errors().front().find("broken.glb"), std::string::npos);
+  EXPECT_NE(studio.errors().back().find("absent.c3d"), std::string::npos);
   EXPECT_EQ(studio.takes().size(), 1u);
   EXPECT_EQ(studio.avatars().size(), 1u);
   EXPECT_EQ(studio.frame().frame, frame_before);
