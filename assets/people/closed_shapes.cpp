@@ -44,8 +44,8 @@ ClosedMesh RoundBox(const Vec3& centre, const Vec3& half, double round, int cuts
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [it, fresh] = index.try_emplace(at, static_cast<std::uint32_t>(index.size()));
     if (fresh) {
-      Vec3 direction;
-      Vec3 core;
+      Vec3 direction{0.0};
+      Vec3 core{0.0};
       for (int axis = 0; axis < 3; ++axis) {
         const double share = 2.0 * at[static_cast<std::size_t>(axis)] / cuts - 1.0;
         direction[axis] = std::tan(0.25 * kPi * share);
