@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/files/file_io.h"
+#include "assets/files/shown_text.h"
 #include "assets/markers/shipped_marker_sets.h"
 
 namespace ego {
@@ -19,11 +20,13 @@ using Json = nlohmann::json;
 // More than any body carries; bounds the work on a hostile file.
 constexpr std::size_t kMaxMarkers = 1000;
 constexpr std::size_t kMaxAliases = 100;
+constexpr std::size_t kLongestLabel = 64;
+constexpr const char* kTooLong = " must have at most 64 letters";
 
 std::optional<std::string> StringAt(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_string()) return std::nullopt;
-  return found->get<std::string>();
+  return CleanText(found->get_ref<const std::string&>());
 }
 
 std::optional<Vec3> VectorAt(const Json& object, const char* key) {
@@ -44,7 +47,8 @@ Result<SetMarker> ReadMarker(const Json& object, const std::string& where) {
   const std::optional<std::string> label = StringAt(object, "label");
   if (!label) return Error{where + " needs a \"label\" string"};
   marker.label = CleanLabel(*label);
-  const std::string which = where + " \"" + *label + "\"";
+  const std::string which = where + " " + Quoted(*label);
+  if (label->size() > kLongestLabel) return Error{which + kTooLong};
 
   if (const auto aliases = object.find("aliases"); aliases != object.end()) {
     if (!aliases->is_array() || aliases->size() > kMaxAliases) {
@@ -53,7 +57,9 @@ Result<SetMarker> ReadMarker(const Json& object, const std::string& where) {
     }
     for (const Json& alias : *aliases) {
       if (!alias.is_string()) return Error{which + ": \"aliases\" must hold strings only"};
-      marker.aliases.push_back(CleanLabel(alias.get<std::string>()));
+      const std::string word = CleanText(alias.get_ref<const std::string&>());
+      if (word.size() > kLongestLabel) return Error{which + kTooLong};
+      marker.aliases.push_back(CleanLabel(word));
     }
   }
   const std::optional<std::string> joint = StringAt(object, "joint");
@@ -76,6 +82,7 @@ Result<SetMarker> ReadMarker(const Json& object, const std::string& where) {
   if (object.contains("mirror")) {
     const std::optional<std::string> mirror = StringAt(object, "mirror");
     if (!mirror) return Error{which + ": \"mirror\" must be the label of the other side"};
+    if (mirror->size() > kLongestLabel) return Error{which + kTooLong};
     marker.mirror = CleanLabel(*mirror);
   }
   return marker;
@@ -109,6 +116,7 @@ Result<MarkerSet> ParseMarkerSet(std::string_view text, std::string_view name) {
   MarkerSet set;
   const std::optional<std::string> set_name = StringAt(root, "name");
   if (!set_name || set_name->empty()) return Error{file + ": needs a \"name\" string"};
+  if (set_name->size() > kLongestLabel) return Error{file + ": its name" + kTooLong};
   set.name = *set_name;
   set.description = StringAt(root, "description").value_or("");
   const auto markers = root.find("markers");

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/files/file_io.h"
+#include "assets/files/shown_text.h"
 
 namespace ego {
 namespace {
@@ -19,6 +20,7 @@ using Json = nlohmann::json;
 
 // Bounds on a hostile file.
 constexpr std::size_t kMaxKeys = 2000;
+constexpr std::size_t kLongestText = 1000;
 constexpr double kMaxSeconds = 600.0;
 constexpr double kMaxNumber = 1000.0;
 
@@ -37,7 +39,7 @@ void OnlyFields(const Json& object, std::initializer_list<std::string_view> know
   for (const auto& item : object.items()) {
     bool found = false;
     for (const std::string_view name : known) found = found || item.key() == name;
-    if (!found) Stop(where, "has an unknown field \"" + item.key() + "\"");
+    if (!found) Stop(where, "has an unknown field " + Quoted(item.key()));
   }
 }
 
@@ -63,7 +65,11 @@ void Read(const Json& object, const char* field, const std::string& where, std::
   const auto found = object.find(field);
   if (found == object.end()) return;
   if (!found->is_string()) Stop(where + " \"" + field + "\"", "must be a text in quotes");
-  out = found->get<std::string>();
+  out = CleanText(found->get_ref<const std::string&>());
+  if (out.size() > kLongestText) {
+    Stop(where + " \"" + field + "\"",
+         "must have at most " + std::to_string(kLongestText) + " letters");
+  }
 }
 
 bool Read(const Json& object, const char* field, const std::string& where, Vec3& out) {
@@ -198,7 +204,8 @@ BodyGoals ReadPosture(const Json& object, const Named& named, BodyGoals posture,
   Read(object, "go", where, name);
   if (!name.empty()) {
     const auto found = named.find(name);
-    if (found == named.end()) Stop(where, "goes to \"" + name + "\", a posture not given before");
+    if (found == named.end())
+      Stop(where, "goes to " + Quoted(name) + ", a posture not given before");
     posture = found->second;
   }
   if (Read(object, "root", where, posture.root)) posture.seat.reset();
@@ -323,8 +330,7 @@ MotionScript ReadScript(const Json& root, const std::string& file) {
       if (name.empty()) Stop(file + ": \"postures\"", "must each have a \"name\"");
       Json fields = item;
       fields.erase("name");
-      named[name] =
-          ReadPosture(fields, named, StandingGoals(), file + ": posture \"" + name + "\"");
+      named[name] = ReadPosture(fields, named, StandingGoals(), file + ": posture " + Quoted(name));
     }
   }
   if (!root.contains("keys")) Stop(file + ":", "needs \"keys\"");

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assets/files/file_io.h"
+#include "assets/files/shown_text.h"
 #include "assets/people/person_measure.h"
 
 namespace ego {
@@ -19,6 +20,7 @@ using Json = nlohmann::json;
 
 /// More than any stage holds; bounds the work on a hostile file.
 constexpr std::size_t kMostPeople = 100;
+constexpr std::size_t kLongestName = 100;
 
 std::optional<glm::vec3> ColorFrom(const Json& value) {
   if (!value.is_string()) return std::nullopt;
@@ -62,7 +64,7 @@ Result<PersonParameters> BaseOf(const Json& object, const std::string& where) {
 
 Result<void> Set(PersonParameters& person, const std::string& key, const Json& value,
                  const std::string& where) {
-  const std::string quoted = where + ": \"" + key + "\" must be ";
+  const std::string quoted = where + ": " + Quoted(key) + " must be ";
   for (const PersonMeasure& measure : PersonMeasures()) {
     if (key != measure.key) continue;
     if (!value.is_number()) return Error{quoted + "a number"};
@@ -88,7 +90,7 @@ Result<void> Set(PersonParameters& person, const std::string& key, const Json& v
     person.style = value == "robot" ? PersonStyle::kRobot : PersonStyle::kSoft;
     return {};
   }
-  return Error{where + ": there is no measurement \"" + key + "\""};
+  return Error{where + ": there is no measurement " + Quoted(key)};
 }
 
 Result<PersonParameters> PersonFrom(const Json& object, std::string where) {
@@ -97,10 +99,13 @@ Result<PersonParameters> PersonFrom(const Json& object, std::string where) {
   if (name == object.end() || !name->is_string() || name->get_ref<const std::string&>().empty()) {
     return Error{where + " needs a \"name\" string"};
   }
-  where += " \"" + name->get<std::string>() + "\"";
+  where += " " + Quoted(name->get_ref<const std::string&>());
   Result<PersonParameters> person = BaseOf(object, where);
   if (!person) return person;
-  person->name = name->get<std::string>();
+  person->name = CleanText(name->get_ref<const std::string&>());
+  if (person->name.empty() || person->name.size() > kLongestName) {
+    return Error{where + ": \"name\" must have 1 to " + std::to_string(kLongestName) + " letters"};
+  }
   for (const auto& [key, value] : object.items()) {
     if (key == "name" || key == "base") continue;
     if (const Result<void> set = Set(*person, key, value, where); !set) return Error{set.error()};
@@ -128,6 +133,9 @@ Result<std::vector<PersonParameters>> ParsePeople(std::string_view json, std::st
     Result<PersonParameters> person =
         PersonFrom((*list)[i], file + ": person " + std::to_string(i + 1));
     if (!person) return Error{person.error()};
+    const bool taken = std::any_of(people.begin(), people.end(),
+                                   [&](const auto& other) { return other.name == person->name; });
+    if (taken) return Error{file + ": two people have the name " + Quoted(person->name)};
     people.push_back(*std::move(person));
   }
   return people;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "assets/files/shown_text.h"
 #include "assets/takes/text.h"
 
 namespace ego {

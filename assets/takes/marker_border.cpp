@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "assets/files/shown_text.h"
 #include "assets/takes/text.h"
 
 namespace ego {

@@ -7,10 +7,6 @@
 
 namespace ego {
 
-/// Text of a file as the program shows and writes it: valid UTF-8 is kept, anything else is read
-/// as Latin-1; control characters and blanks at both ends go.
-std::string CleanText(std::string_view raw);
-
 /// The name of a take: the file's name without folder and extension.
 std::string TakeName(std::string_view file);
 
@@ -20,8 +16,5 @@ std::optional<double> ReadNumber(std::string_view text);
 
 /// True for equal texts whatever the case of ASCII letters.
 bool SameWord(std::string_view a, std::string_view b);
-
-/// A name or a word from a file, in quotes and shortened, for use in a message.
-std::string Quoted(std::string_view text);
 
 }  // namespace ego

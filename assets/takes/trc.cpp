@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/files/file_io.h"
+#include "assets/files/shown_text.h"
 #include "assets/takes/marker_border.h"
 #include "assets/takes/text.h"
 

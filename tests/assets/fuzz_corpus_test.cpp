@@ -8,12 +8,15 @@
 #include "assets/calibration/calibration_file.h"
 #include "assets/files/file_io.h"
 #include "assets/gltf/character_file.h"
+#include "assets/motions/motion_script_file.h"
+#include "assets/people/person_file.h"
 #include "assets/takes/bvh.h"
 #include "assets/takes/c3d.h"
 #include "assets/takes/trc.h"
 #include "core/pipeline/skeleton_capture.h"
 #include "tests/support/capsule_person.h"
 #include "tests/support/character_laws.h"
+#include "tests/support/script_laws.h"
 #include "tests/support/take_laws.h"
 
 namespace ego {
@@ -77,6 +80,20 @@ TEST(FuzzCorpus, HoldsTheLawsOfCalibrations) {
     EXPECT_EQ(again->calibration, loaded->calibration);
   };
   EXPECT_GE(Replay("calibration", read), 4u);
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfMotionScripts) {
+  const auto read = [](auto bytes) {
+    test::CheckScript(ParseMotionScript(Text(bytes), "x.json"), "x.json");
+  };
+  EXPECT_GE(Replay("motion_script", read), 4u);
+}
+
+TEST(FuzzCorpus, HoldsTheLawsOfPeople) {
+  const auto read = [](auto bytes) {
+    test::CheckPeople(ParsePeople(Text(bytes), "x.json"), "x.json");
+  };
+  EXPECT_GE(Replay("people", read), 4u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/skeleton/pose.h"
+#include "tests/support/sentence_law.h"
 
 namespace ego::test {
 namespace {
@@ -22,12 +23,6 @@ bool IsFinite(const Mat4& m) {
 /// -1 or an index into `size` things.
 bool IsNoneOrIn(int index, std::size_t size) {
   return index >= -1 && index < static_cast<int>(size);
-}
-
-void CheckSentence(const std::string& sentence, std::string_view file) {
-  EGO_CHECK(sentence.starts_with(file));
-  EGO_CHECK(sentence.size() > file.size() + 2 && sentence.size() < 1000);
-  EGO_CHECK(sentence.find('\n') == std::string::npos);
 }
 
 void CheckPart(const MeshPart& part, const Character& character) {

@@ -2,22 +2,16 @@
 #include "tests/support/take_laws.h"
 
 #include <cmath>
-#include <string>
 #include <unordered_set>
 
 #include "core/base/check.h"
+#include "tests/support/sentence_law.h"
 
 namespace ego::test {
 namespace {
 
 bool IsFinite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-void CheckSentence(const std::string& sentence, std::string_view file) {
-  EGO_CHECK(sentence.starts_with(file));
-  EGO_CHECK(sentence.size() > file.size() + 2 && sentence.size() < 1000);
-  EGO_CHECK(sentence.find('\n') == std::string::npos);
 }
 
 }  // namespace
