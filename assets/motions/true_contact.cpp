@@ -41,12 +41,26 @@ std::string PartName(J joint) {
   }
 }
 
+/// "left belly side" of "leftBellySide".
+std::string SpacedName(SamplePoint sample) {
+  std::string spaced;
+  for (const char c : Name(sample)) {
+    const bool capital = c >= 'A' && c <= 'Z';
+    if (capital) spaced += ' ';
+    spaced += capital ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return spaced;
+}
+
 }  // namespace
 
 std::string TrueContact::Sentence() const {
+  const bool sampled = !places.empty() && places.front().place.part == BodyPart::kSample;
   return std::string(side == 0 ? "left " : "right ") +
          std::string(kFaceNames[static_cast<std::size_t>(face)]) + " on the " +
-         (plate_ws ? "plate" : PartName(on));
+         (plate_ws  ? "plate"
+          : sampled ? SpacedName(places.front().place.sample)
+                    : PartName(on));
 }
 
 bool TrueContact::Slides() const {

@@ -29,7 +29,7 @@ struct TrueContact {
   };
   std::vector<Instant> places;
 
-  /// "left palm on the right forearm".
+  /// "left palm on the right forearm", "right fingertips on the navel".
   std::string Sentence() const;
   bool Slides() const;
 };

@@ -2,6 +2,7 @@
 #include "assets/motions/motions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -123,6 +124,19 @@ TEST(Motions, EveryContactHoldsOnThreeBodies) {
   EXPECT_GT(contacts, 100u);
 }
 
+TEST(Motions, TheTouchSequenceTouchesEverySamplePointOfACalibration) {
+  const MotionPlayer player(ScriptedFigure(), Script("touch_points"));
+  std::array<int, kSampleCount> touches{};
+  for (const TrueContact& contact : player.contacts()) {
+    ASSERT_EQ(contact.places.front().place.part, BodyPart::kSample) << contact.Sentence();
+    ++touches[Index(contact.places.front().place.sample)];
+  }
+  for (std::size_t i = 0; i < kSampleCount; ++i) {
+    EXPECT_EQ(touches[i], 1) << Name(static_cast<SamplePoint>(i));
+  }
+  EXPECT_EQ(player.contacts().front().Sentence(), "right fingertips on the collar notch");
+}
+
 /// What is wrong with each shipped motion on the scripted performer, looked at 12 times a second.
 const MotionCheck& CheckOf(const MotionScript& script) {
   static std::map<std::string, MotionCheck> checks;
@@ -139,20 +153,16 @@ class EveryMotion : public testing::TestWithParam<std::size_t> {
 /// Skin in skin on the finished mesh, every limb against the body without it.
 TEST_P(EveryMotion, SinksIntoItselfByNoMoreThanFiveMillimetres) {
   constexpr double kLimit = 0.005;
-  // Known: as the hand leaves the pubis the upper arm presses into the chest by 6.7 mm.
-  constexpr double kLimitOfTouches = 0.0075;
-  const bool touches = script().name == "touch_points";
   const MotionCheck& check = CheckOf(script());
-  EXPECT_LE(check.sinking.depth, touches ? kLimitOfTouches : kLimit)
+  EXPECT_LE(check.sinking.depth, kLimit)
       << script().name << ": " << Name(check.sinking.of) << " in " << Name(check.sinking.in)
       << " at " << check.sinking_at_s << " s";
-  // How fast joints turn: arms and legs of athletes reach 1000 to 2000 degrees/s in throws, strikes
-  // and kicks, 500 in what people do every day (Werner et al., J. Shoulder Elbow Surg. 2008:
-  // elbow 2434, Sørensen et al., J. Sports Sci. 1996: knee of a high front kick 1500).
-  constexpr double kFast = 1300.0;
+  // The studio's own bars: nothing unhurried turns a joint faster than this; slaps and the draw of
+  // a gun are meant to be quick.
   constexpr double kUsual = 1000.0;
-  const bool fast = script().name == "haka" || script().name == "gun" || touches;
-  EXPECT_LE(check.largest_speed, fast ? kFast : kUsual)
+  constexpr double kQuick = 1300.0;
+  const bool quick = script().name == "haka" || script().name == "gun";
+  EXPECT_LE(check.largest_speed, quick ? kQuick : kUsual)
       << script().name << " at " << check.largest_speed_at_s << " s";
   // A wrist bends by up to some 80 to 90 degrees, and by up to 40 to the side at the same time.
   EXPECT_LE(check.largest_wrist, 110.0) << script().name << " at " << check.largest_wrist_at_s;
