@@ -37,6 +37,10 @@ constexpr double kSameWay = 0.5;
 /// which it does in any case.
 constexpr double kSameSide = 0.5;
 constexpr double kInside = 0.02;
+/// The performer's clearance, in heights, from which on it counts as ample, and is: below where
+/// `MeasureClearance` begins not to know it, which depends on how the body is turned.
+constexpr double kNearlyFar = 0.025;
+constexpr double kFar = 0.045;
 /// Length of a gradient above which one way begins to lead out: where faces that look different
 /// ways are equally near, it is short.
 constexpr double kOneWay = 0.8;
@@ -103,9 +107,12 @@ bool MeasureCapsule(const AdaptState& state, const CapsuleObstacle& obstacle,
   return true;
 }
 
-/// Clearance that is kept of the performer's own: all of it where there is little.
-double Need(double clearance, double margin) {
-  return clearance <= 0.0 ? clearance : margin * -std::expm1(-clearance / margin);
+/// Clearance that is kept of the performer's own, `clearance` in heights: all of it where there is
+/// little, the whole margin where there is as much as need not be known.
+double Need(double clearance, double height, double margin) {
+  if (clearance <= 0.0) return clearance * height;
+  const double kept = -std::expm1(-clearance * height / margin);
+  return margin * glm::mix(kept, 1.0, Smoothstep((clearance - kNearlyFar) / (kFar - kNearlyFar)));
 }
 
 /// Whether a way out of trunk or head is the performer's own, `along` their cosine: 0 to 1.
@@ -254,7 +261,8 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
         ask(wanted * ContactShare(wanted / height, decided), same_side * pull);
       }
       if ((contacts_alone && o >= kFirstCapsuleObstacle) || now.distance >= most) continue;
-      const double short_of = (performer.known ? Need(clearance, margin) : margin) - now.distance;
+      const double short_of =
+          (performer.known ? Need(performer.distance, height, margin) : margin) - now.distance;
       const double weight = performer.trust * (hand_in_body ? kHandWeight : 1.0) *
                             Smoothstep(short_of / ((hand_in_body ? 1.0 : 2.0) * kDeep * height)) *
                             Bounded(short_of / (kDeep * height));
