@@ -10,8 +10,8 @@
 #include "assets/calibration/test_postures.h"
 #include "core/metrics/surface_gap.h"
 #include "core/model/avatar_body.h"
-#include "tests/support/bodies.h"
 #include "tests/support/capsule_person.h"
+#include "tests/support/studio_motions.h"
 
 namespace ego {
 namespace {
@@ -191,7 +191,7 @@ TEST(TestPostures, TouchOnThePerformerAndEndWhereTheyBegin) {
 
 TEST(TestPostures, ShowAMisplacedPointAsAGap) {
   TestPostures postures;
-  const Body body = test::Child();
+  const Body& body = test::StudioBody("Child");
   Body wrong = body;
   // The belly picked far too deep: hands that should lie on it sink into the true one.
   for (const S p : {S::kNavel, S::kLeftBellySide, S::kRightBellySide}) {

@@ -8,15 +8,15 @@
 
 #include "core/baselines/retarget_method.h"
 #include "tests/support/bodies.h"
-#include "tests/support/postures.h"
+#include "tests/support/studio_motions.h"
 
 namespace ego::test {
 namespace {
 
 const std::vector<Pose>& Frames() {
   static const std::vector<Pose> kFrames = [] {
-    std::vector<Pose> all = Motion(TemplateBody(), "hands on belly");
-    for (const Pose& pose : Motion(TemplateBody(), "walk")) all.push_back(pose);
+    std::vector<Pose> all = Motion("hands_clasped").poses;
+    all.insert(all.end(), Motion("walk").poses.begin(), Motion("walk").poses.end());
     return all;
   }();
   return kFrames;
@@ -24,7 +24,7 @@ const std::vector<Pose>& Frames() {
 
 /// One performer frame.
 void Normalise(benchmark::State& state, const std::string& name) {
-  const Body performer = TemplateBody();
+  const Body& performer = StudioPerformer();
   const auto method = MakeRetargetMethod(name);
   std::size_t frame = 0;
   for (auto _ : state) {
@@ -34,8 +34,8 @@ void Normalise(benchmark::State& state, const std::string& name) {
 
 /// One avatar frame in all: normalisation and adaptation.
 void OneAvatar(benchmark::State& state, const std::string& name) {
-  const Body performer = TemplateBody();
-  const Body avatar = Child();
+  const Body& performer = StudioPerformer();
+  const Body& avatar = StudioBody("Child");
   const auto method = MakeRetargetMethod(name);
   Pose out;
   std::size_t frame = 0;
@@ -49,7 +49,7 @@ void OneAvatar(benchmark::State& state, const std::string& name) {
 /// A crowd: one normalisation, twelve avatars of all shapes. Items are avatar frames.
 void Crowd(benchmark::State& state, const std::string& name) {
   constexpr std::size_t kAvatars = 12;
-  const Body performer = TemplateBody();
+  const Body& performer = StudioPerformer();
   std::vector<Body> avatars = StudyBodies();
   avatars.push_back(PoorRig());
   const auto method = MakeRetargetMethod(name);
@@ -65,7 +65,7 @@ void Crowd(benchmark::State& state, const std::string& name) {
 
 /// Forward kinematics alone: what the others are multiples of, on any machine.
 void PlainForwardKinematics(benchmark::State& state) {
-  const Body performer = TemplateBody();
+  const Body& performer = StudioPerformer();
   std::size_t frame = 0;
   for (auto _ : state) {
     const ModelPose posed =

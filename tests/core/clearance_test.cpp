@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "core/geometry/closest_point.h"
-#include "tests/support/postures.h"
+#include "tests/support/studio_motions.h"
 
 namespace ego::test {
 namespace {
 
-PosedBody Place(const Body& body, std::string_view posture) {
+PosedBody Place(const Body& body, const Pose& pose) {
   PosedBody posed;
-  PlaceBody(body, BodyConstants(body), Posture(body, posture), posed);
+  PlaceBody(body, BodyConstants(body), pose, posed);
   return posed;
 }
 
@@ -22,10 +22,10 @@ void ExpectEqual(const QuadVectors& a, const QuadVectors& b) {
 }
 
 TEST(PlaceTriangles, GivesTheSameBitsInAnyWidth) {
-  const Body body = TemplateBody();
+  const Body& body = StudioPerformer();
   const BodyConstants constants(body);
-  for (const std::string_view name : PostureNames()) {
-    PosedBody two = Place(body, name);
+  for (const auto& [name, pose] : StudioPostures()) {
+    PosedBody two = Place(body, pose);
     PosedBody fastest = two;
     PlaceTriangles(body, constants, two, LaneWidth::kTwo);
     PlaceTriangles(body, constants, fastest, FastestLanes());
@@ -41,7 +41,7 @@ TEST(PlaceTriangles, GivesTheSameBitsInAnyWidth) {
 }
 
 TEST(PlaceTriangles, MakesRightHandedTangentFrames) {
-  const PosedBody posed = Place(TemplateBody(), PostureNames()[0]);
+  const PosedBody posed = Place(StudioPerformer(), Posture("standing"));
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
     const Vec3 normal = posed.triangle[t / 4].normal.At(t % 4);
     const Vec3 along = posed.tangent[t / 4].along.At(t % 4);
@@ -53,9 +53,9 @@ TEST(PlaceTriangles, MakesRightHandedTangentFrames) {
 }
 
 TEST(MeasureClearance, GivesTheSameBitsInAnyWidth) {
-  const Body body = TemplateBody();
-  for (const std::string_view name : PostureNames()) {
-    const PosedBody posed = Place(body, name);
+  const Body& body = StudioPerformer();
+  for (const auto& [name, pose] : StudioPostures()) {
+    const PosedBody posed = Place(body, pose);
     EgocentricPose::ArmClearance two;
     EgocentricPose::ArmClearance fastest;
     MeasureClearance(body, posed, Limb::kLeftArm, two, LaneWidth::kTwo);
@@ -72,9 +72,9 @@ TEST(MeasureClearance, GivesTheSameBitsInAnyWidth) {
 }
 
 TEST(MeasureClearance, IsTheDistanceBetweenSphereAndCapsule) {
-  const Body body = TemplateBody();
-  for (const std::string_view name : PostureNames()) {
-    const PosedBody posed = Place(body, name);
+  const Body& body = StudioPerformer();
+  for (const auto& [name, pose] : StudioPostures()) {
+    const PosedBody posed = Place(body, pose);
     for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
       EgocentricPose::ArmClearance clearance;
       MeasureClearance(body, posed, arm, clearance);

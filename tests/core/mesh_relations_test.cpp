@@ -5,7 +5,7 @@
 
 #include "core/adapt/body_sum.h"
 #include "core/egocentric/capsule_relations.h"
-#include "tests/support/postures.h"
+#include "tests/support/studio_motions.h"
 
 namespace ego::test {
 namespace {
@@ -17,9 +17,9 @@ struct Outcome {
 };
 
 /// A body in place with what follows from it.
-struct PosedTemplate {
-  explicit PosedTemplate(std::string_view posture) : body(TemplateBody()), constants(body) {
-    PlaceBody(body, constants, Posture(body, posture), posed);
+struct PlacedPerformer {
+  explicit PlacedPerformer(const Pose& pose) : body(StudioPerformer()), constants(body) {
+    PlaceBody(body, constants, pose, posed);
     bone_direction = BoneDirectionsOf(posed);
   }
   Body body;
@@ -28,7 +28,7 @@ struct PosedTemplate {
   BoneDirections bone_direction;
 };
 
-GroupQuery QueryOf(const PosedTemplate& placed, std::size_t group) {
+GroupQuery QueryOf(const PlacedPerformer& placed, std::size_t group) {
   return {.constants = placed.constants,
           .posed = placed.posed,
           .bone_direction = placed.bone_direction,
@@ -60,8 +60,8 @@ void ExpectEqual(const MeshRelations& a, const MeshRelations& b, std::size_t len
 }
 
 TEST(RelateToMeshes, GivesTheSameBitsInAnyWidth) {
-  for (const std::string_view name : PostureNames()) {
-    const PosedTemplate placed(name);
+  for (const auto& [name, pose] : StudioPostures()) {
+    const PlacedPerformer placed(pose);
     for (std::size_t group = 0; group < kPointGroupCount; ++group) {
       const GroupQuery query = QueryOf(placed, group);
       const Outcome two = Relate(query, LaneWidth::kTwo);
@@ -102,7 +102,7 @@ double PathFactor(const KinematicPath& path, const Vec3& direction,
 /// Equations 4 to 6 and appendix A written out for one point and one triangle after the other, read
 /// on a body with other bones and thicknesses.
 TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
-  const PosedTemplate placed(PostureNames()[0]);
+  const PlacedPerformer placed(Posture("standing"));
   const auto& [body, constants, posed, bone_direction] = placed;
   std::array<double, kBoneCount> other_length = constants.bone_length;
   for (std::size_t k = 0; k < kBoneCount; ++k) {
@@ -161,7 +161,7 @@ TEST(RelateToMeshes, AgreesWithTheEquationsTriangleByTriangle) {
 }
 
 TEST(SumOverBody, IsWhatTheCoefficientsSay) {
-  const PosedTemplate placed(PostureNames()[2]);
+  const PlacedPerformer placed(Posture("salute"));
   const auto& [body, constants, posed, bone_direction] = placed;
   for (std::size_t group = 0; group < kPointGroupCount; ++group) {
     const Outcome found = Relate(QueryOf(placed, group), FastestLanes());
@@ -186,9 +186,9 @@ TEST(SumOverBody, IsWhatTheCoefficientsSay) {
 }
 
 TEST(SumOfNormals, IsWhatTheCoefficientsSay) {
-  const Body body = TemplateBody();
+  const Body& body = StudioPerformer();
   PosedBody posed;
-  PlaceBody(body, BodyConstants(body), Posture(body, PostureNames()[2]), posed);
+  PlaceBody(body, BodyConstants(body), Posture("salute"), posed);
   NormalCoordinates normal;
   Vec3 wanted{0.0};
   for (std::size_t t = 0; t < kTriangleCount; ++t) {
@@ -217,8 +217,8 @@ CapsuleOutcome RelateToCapsules(const GroupQuery& query, LaneWidth lanes = Faste
 }
 
 TEST(RelateToCapsules, GivesTheSameBitsInAnyWidth) {
-  for (const std::string_view name : PostureNames()) {
-    const PosedTemplate placed(name);
+  for (const auto& [name, pose] : StudioPostures()) {
+    const PlacedPerformer placed(pose);
     for (std::size_t group = 0; group < kPointGroupCount; ++group) {
       const CapsuleOutcome two = RelateToCapsules(QueryOf(placed, group), LaneWidth::kTwo);
       const CapsuleOutcome fastest = RelateToCapsules(QueryOf(placed, group));
@@ -240,7 +240,7 @@ TEST(RelateToCapsules, GivesTheSameBitsInAnyWidth) {
 /// Equations 4 to 6 written out for one point and one capsule after the other, read on the body
 /// itself and on one of other lengths.
 TEST(RelateToCapsules, AgreesWithTheEquationsCapsuleByCapsule) {
-  const PosedTemplate placed(PostureNames()[1]);
+  const PlacedPerformer placed(Posture("hands_clasped"));
   const auto& [body, constants, posed, bone_direction] = placed;
   Body other = body;
   BodyConstants other_constants = constants;

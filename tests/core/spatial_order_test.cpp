@@ -7,8 +7,7 @@
 
 #include "core/adapt/half_space.h"
 #include "core/egocentric/normalize.h"
-#include "tests/support/bodies.h"
-#include "tests/support/postures.h"
+#include "tests/support/studio_motions.h"
 
 namespace ego::test {
 namespace {
@@ -39,13 +38,13 @@ bool IsOutside(const AdaptState& state, Limb limb) {
 }
 
 TEST(EnsureSpatialOrder, LeavesAloneExactlyWhatIsInOrder) {
-  const Body performer = TemplateBody();
+  const Body& performer = StudioPerformer();
   int in_order = 0;
   int changed = 0;
   for (const Body& avatar : StudyBodies()) {
-    for (const std::string_view name : PostureNames()) {
+    for (const auto& [name, pose] : StudioPostures()) {
       auto egocentric = std::make_unique<EgocentricPose>();
-      Normalize(performer, Posture(performer, name, 0.3), {}, *egocentric);
+      Normalize(performer, pose, {}, *egocentric);
       const AdaptSettings settings;
       const AdaptState state(avatar, *egocentric, settings);
       for (const Limb limb : kLimbs) {

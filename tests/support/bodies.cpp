@@ -62,16 +62,6 @@ Body MakeBody(std::string_view name, const BodyShape& shape) {
   return body;
 }
 
-Body Child() { return MakeBody("child", {1.20, 0.38, 0.48, 0.05, 0.04, 0.06, 0.05, 0.01, 1.05}); }
-Body Alien() { return MakeBody("alien", {1.52, 0.42, 0.66, 0.03, 0.02, 0.05, 0.02, 0.10, 1.2}); }
-Body Woman() { return MakeBody("woman", {1.68, 0.51, 0.80, 0.05, 0.04, 0.08, 0.04, -0.01, 0.95}); }
-Body BigBelly() {
-  return MakeBody("big belly", {1.70, 0.48, 0.76, 0.06, 0.05, 0.10, 0.06, 0.20, 1.0});
-}
-Body LongArms() {
-  return MakeBody("long arms", {1.80, 0.75, 0.86, 0.035, 0.03, 0.06, 0.04, -0.02, 1.1});
-}
-
 Body PoorRig() {
   Skeleton skeleton = TemplateSkeleton(1.5);
   const auto merge = [&](J joint, std::initializer_list<J> children) {
@@ -111,6 +101,36 @@ Body Stubby() {
   return body;
 }
 
-std::vector<Body> StudyBodies() { return {Woman(), Child(), Alien(), BigBelly(), LongArms()}; }
+Body Mirrored(const Body& body) {
+  const auto reflect = [](const Vec3& v) { return Vec3{-v.x, v.y, v.z}; };
+  const BodySurface& from = body.surface;
+  Body made = body;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const std::size_t other = Index(Mirror(static_cast<J>(j)));
+    made.skeleton.offset[j] = reflect(body.skeleton.offset[other]);
+    made.skeleton.locked[j] = body.skeleton.locked[other];
+  }
+  for (std::size_t s = 0; s < kSampleCount; ++s) {
+    const std::size_t other = Index(Mirror(static_cast<SamplePoint>(s)));
+    made.surface.sample_ms[s] = reflect(from.sample_ms[other]);
+    made.surface.attachment[s] = from.attachment[other];
+    for (J& joint : made.surface.attachment[s].joint) joint = Mirror(joint);
+  }
+  for (const Limb limb : kLimbs) {
+    for (std::size_t part = 0; part < 2; ++part) {
+      made.surface.limb_radius[2 * Index(limb) + part] =
+          from.limb_radius[2 * Index(Mirror(limb)) + part];
+    }
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    const HandSurface& hand = from.hand[1 - side];
+    made.surface.hand[side] = {reflect(hand.palm_ms), reflect(hand.palm_normal_ms),
+                               reflect(hand.fingertip_ms), hand.half_thickness};
+    const FootSurface& foot = from.foot[1 - side];
+    made.surface.foot[side] = {reflect(foot.heel_ms), reflect(foot.ball_ms),
+                               reflect(foot.toe_tip_ms), reflect(foot.sole_normal_ms)};
+  }
+  return made;
+}
 
 }  // namespace ego::test

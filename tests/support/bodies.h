@@ -2,13 +2,13 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "core/body/body.h"
 
 namespace ego::test {
 
-/// A body made from the template: lengths in metres, thicknesses as factors of the template's.
+/// A body made from the template, for what the studio's cast (studio_motions.h) does not have:
+/// lengths in metres, thicknesses as factors of the template's.
 struct BodyShape {
   double height = 1.78;
   double arm_length = 0.55;  // shoulder to wrist
@@ -22,17 +22,13 @@ struct BodyShape {
 };
 Body MakeBody(std::string_view name, const BodyShape& shape);
 
-/// The characters of the paper's appendix E and two extremes, then a body of rigs' poverty: no
-/// clavicles, no neck, one spine joint, no hands of its own, no toes.
-Body Child();
-Body Alien();
-Body Woman();
-Body BigBelly();
-Body LongArms();
+/// A body of rigs' poverty: no clavicles, no neck, one spine joint, no hands of its own, no toes.
 Body PoorRig();
 /// Cartoon proportions: legs of a fifth of its height under hips twice as wide, short thick arms, a
-/// round belly. No study body: most contacts are out of its reach.
+/// round belly. Most contacts are out of its reach.
 Body Stubby();
-std::vector<Body> StudyBodies();
+
+/// The body reflected in x = 0, left and right exchanged.
+Body Mirrored(const Body& body);
 
 }  // namespace ego::test
