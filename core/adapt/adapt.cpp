@@ -6,6 +6,7 @@
 #include "core/adapt/body_folding.h"
 #include "core/adapt/denormalize.h"
 #include "core/adapt/extremity.h"
+#include "core/adapt/hand_reach.h"
 #include "core/adapt/spatial_order.h"
 #include "core/adapt/stance.h"
 #include "core/adapt/way_out.h"
@@ -60,7 +61,10 @@ void BringOutOfBody(const AdaptState& state, const std::array<Limb, 2>& arms,
 /// Both limbs of a pair from one state of the body, so that neither side is first.
 void AdaptPair(AdaptState& state, const std::array<Limb, 2>& pair, double w, bool with_planes) {
   std::array<LimbTargets, 2> targets = TargetsOfPair(state, pair[0]);
-  if (IsArm(pair[0])) BringOutOfBody(state, pair, targets);
+  if (IsArm(pair[0])) {
+    for (std::size_t k = 0; k < 2; ++k) ReachWithHand(state, pair[k], targets[k]);
+    BringOutOfBody(state, pair, targets);
+  }
   std::array<LimbPosture, 2> posture =
       BlendedIk({TaskOf(state, pair[0], targets[0], w), TaskOf(state, pair[1], targets[1], w)});
   for (std::size_t k = 0; with_planes && k < 2; ++k) {

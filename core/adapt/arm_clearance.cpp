@@ -14,7 +14,7 @@ namespace {
 
 /// Weights of a touching hand point, against 1 of an arm sample; hands that touch each other give
 /// rows for both, and their surfaces are curved more: a softer pull, or they shiver.
-constexpr double kContactWeight = 10.0;
+constexpr double kContactWeight = 14.0;
 constexpr double kMutualWeight = 3.0;
 constexpr double kHandWeight = 2.0;     // of a hand point in trunk or head
 constexpr double kHandMargin = 0.004;   // metres: how near it may come where the performer's is far

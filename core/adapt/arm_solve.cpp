@@ -9,7 +9,7 @@
 namespace ego {
 namespace {
 
-constexpr double kArmDamping = 1.0;    // weight of a point at the arm's length
+constexpr double kArmDamping = 2.0;    // weight of a point at the arm's length
 constexpr double kElbowDamping = 4.0;  // likewise; nearly straight arms flex fast
 constexpr double kHandDamping = 2.0;   // likewise at the hand's length
 constexpr double kArmStep = 0.15;      // radians a step can hardly exceed
