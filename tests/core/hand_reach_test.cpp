@@ -7,19 +7,21 @@
 
 #include "core/egocentric/normalize.h"
 #include "core/geometry/rotation.h"
-#include "tests/support/bodies.h"
-#include "tests/support/postures.h"
+#include "tests/support/studio_motions.h"
 
 namespace ego::test {
 namespace {
 
 constexpr Limb kArm = Limb::kRightArm;
 
-/// The hand, across, before a place at a distance that the arm and hand in line reach.
+/// A hand, across, before a place at a distance that the arm and hand in line reach. `gap`, metres:
+/// how near the performer's is to a surface.
 struct Reaching {
-  explicit Reaching(std::string_view posture) {
-    const Body performer = TemplateBody();
-    Normalize(performer, Posture(performer, posture), {}, *egocentric);
+  explicit Reaching(double gap) {
+    Normalize(avatar, Posture("standing"), {}, *egocentric);
+    for (const LimbPoint j : {EndPoint(kArm), PalmPoint(kArm), FingertipPoint(kArm)}) {
+      egocentric->point[Index(j)].priority = avatar.height / gap;
+    }
     state = std::make_unique<AdaptState>(avatar, *egocentric, settings);
     const LimbChain& chain = state->chain[Index(kArm)];
     const Vec3 hand = Hand();
@@ -33,7 +35,7 @@ struct Reaching {
   }
   double Distance() const { return glm::distance(targets.end, state->chain[Index(kArm)].base_ws); }
 
-  Body avatar = TemplateBody();
+  const Body& avatar = StudioPerformer();
   AdaptSettings settings;
   std::unique_ptr<EgocentricPose> egocentric = std::make_unique<EgocentricPose>();
   std::unique_ptr<AdaptState> state;
@@ -41,7 +43,7 @@ struct Reaching {
 };
 
 TEST(ReachWithHand, TurnsTheHandTowardsItsPlaceWhereTheArmIsTooShort) {
-  Reaching reaching("hands on belly");
+  Reaching reaching(0.001);
   const Vec3 place = reaching.targets.end + reaching.Hand();
   const double before = reaching.Distance();
   const double reach = reaching.state->chain[Index(kArm)].Reach();
@@ -59,20 +61,16 @@ TEST(ReachWithHand, LeavesAloneWhatIsWithinReachFarFromSurfacesOrSwitchedOff) {
     ReachWithHand(*reaching.state, kArm, reaching.targets);
     return reaching.targets.end == end && reaching.state->extremity_ws[Index(kArm)] == hand;
   };
-  Reaching near("hands on belly");
+  Reaching near(0.001);
   const LimbChain& chain = near.state->chain[Index(kArm)];
   near.targets.end = glm::mix(chain.base_ws, near.targets.end, 0.9);
   EXPECT_TRUE(is_left_alone(near));
 
-  Reaching off("hands on belly");
+  Reaching off(0.001);
   off.settings.hand_reach_gap = 0.0;
   EXPECT_TRUE(is_left_alone(off));
 
-  Reaching free("hands on belly");
-  free.settings.hand_reach_gap = 1e-6;  // as if every surface were far
-  for (const LimbPoint j : {EndPoint(kArm), PalmPoint(kArm), FingertipPoint(kArm)}) {
-    free.egocentric->point[Index(j)].priority = 1.0;
-  }
+  Reaching free(0.3);
   EXPECT_TRUE(is_left_alone(free));
 }
 
