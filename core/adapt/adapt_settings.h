@@ -49,9 +49,10 @@ struct AdaptSettings {
   /// Whether hands keep the performer's direction in the world before they are aligned with the
   /// surface. Off: they follow the forearm.
   bool hands_keep_direction = true;
-  /// Metres of the performer's own gap over which hands of arms that are too short for their target
-  /// begin to turn towards it. 0: off, they stop short with the hand across; small: they turn fast.
-  double hand_reach_gap = 0.250;
+  /// Metres of the performer's own gap at which hands of arms that are too short for their target
+  /// use half of the turn towards it. 0: off, they stop short with the hand across; small: slaps
+  /// jerk the hand; large: hands that touch nothing lose their direction.
+  double hand_reach_gap = 0.180;
   /// Degrees of forward hip flexion where body folding begins and where it is fully allowed
   /// (section 6.4). Lower: a walk nods. Higher: short arms never reach the knees.
   double folding_begin = 15.0;

@@ -41,6 +41,9 @@ constexpr double kInside = 0.02;
 /// `MeasureClearance` begins not to know it, which depends on how the body is turned.
 constexpr double kNearlyFar = 0.025;
 constexpr double kFar = 0.045;
+/// In heights: how much less the smooth distance to trunk or head may be than that to their box,
+/// seen from where their faces meet at a sharp angle.
+constexpr double kBeyondBox = 0.03;
 /// Length of a gradient above which one way begins to lead out: where faces that look different
 /// ways are equally near, it is short.
 constexpr double kOneWay = 0.8;
@@ -160,10 +163,11 @@ std::array<std::array<bool, kObstacleCount>, kPartCount> FarFrom(
   for (std::size_t part = 0; part < kPartCount; ++part) {
     const SampleBall ball(samples, kPartBegin[part], kPartBegin[part + 1]);
     for (std::size_t o = 0; o < kObstacleCount; ++o) {
-      far[part][o] = o < kFirstCapsuleObstacle
-                         ? body.LowerBound(o, {ball.center, ball.reach}) > margin + 0.01 * height
-                         : ball.IsFartherThan(margin + 2.0 * Nudge(state),
-                                              capsules[o - kFirstCapsuleObstacle]);
+      far[part][o] =
+          o < kFirstCapsuleObstacle
+              ? body.LowerBound(o, {ball.center, ball.reach}) > margin + kBeyondBox * height
+              : ball.IsFartherThan(margin + 2.0 * Nudge(state),
+                                   capsules[o - kFirstCapsuleObstacle]);
     }
   }
   for (std::size_t s = kFirstContactSample; s < kClearanceSampleCount; ++s) {
@@ -227,7 +231,7 @@ double AskForArm(const AdaptState& state, const BodyObstacles& body, Limb arm, M
       SignedDistance now;
       CapsuleMeasure capsule;
       if (o < kFirstCapsuleObstacle) {
-        if (touching == 0.0 && body.LowerBound(o, sample) > most + 0.01 * height) continue;
+        if (touching == 0.0 && body.LowerBound(o, sample) > most + kBeyondBox * height) continue;
         if (!MeasureMesh(body, o, sample, touching > 0.0, memory.entry[s][o], now)) continue;
       } else if (!MeasureCapsule(state, capsules[o - kFirstCapsuleObstacle], sample,
                                  performer.direction_ls, touching > 0.0 ? 10.0 * height : most,

@@ -25,7 +25,7 @@ double Nearness(const AdaptState& state, Limb arm) {
     priority = std::max(priority, state.egocentric.point[Index(j)].priority);
   }
   const double scaled = priority * state.settings.hand_reach_gap / 1.78;
-  return scaled > 1.0 ? 1.0 - Smoothstep(1.0 / scaled) : 0.0;
+  return scaled * scaled / (1.0 + scaled * scaled);
 }
 
 /// Angle whose 2 (1 - cosine) is `q`.
