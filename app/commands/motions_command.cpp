@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -28,6 +29,7 @@ using Json = nlohmann::ordered_json;
 struct Arguments {
   std::vector<std::string> names;
   fs::path report;
+  fs::path table;
   bool list = false;
   bool source_only = false;
   double rate_hz = 20.0;
@@ -161,6 +163,36 @@ void PrintFollowers(const std::vector<FollowerGap>& gaps) {
   }
 }
 
+// One row of the Markdown table: the performer's own figures, then every follower's mean gap.
+std::string TableRow(const MotionScript& script, const MotionCheck& check,
+                     const std::vector<FollowerGap>& gaps) {
+  const auto written = [](const char* format, auto... values) {
+    std::array<char, 96> text;
+    std::snprintf(text.data(), text.size(), format, values...);
+    return std::string(text.data());
+  };
+  std::string row = "| " + (script.study.empty() ? script.name : script.study + " " + script.name);
+  row += written(" | %zu | %.1f | %.0f |", check.contacts.size(), 1000.0 * check.sinking.depth,
+                 check.largest_speed);
+  const std::size_t half = gaps.size() / 2;
+  for (std::size_t f = 0; f < half; ++f) {
+    row += gaps[f].all.samples == 0 ? " |"
+                                    : written(" %.0f → %.0f |", 1000.0 * gaps[f].all.mean_abs,
+                                              1000.0 * gaps[f + half].all.mean_abs);
+  }
+  return row + "\n";
+}
+
+std::string TableHead(const std::vector<std::unique_ptr<Follower>>& cast) {
+  std::string names = "| motion | touches | sinks in, mm | fastest, degrees/s |";
+  std::string rule = "| --- | ---: | ---: | ---: |";
+  for (const auto& follower : cast) {
+    names += " " + follower->person.body.name + " |";
+    rule += " ---: |";
+  }
+  return names + "\n" + rule + "\n";
+}
+
 Result<std::vector<MotionScript>> ScriptsOf(const Arguments& arguments) {
   const std::span<const MotionScript> shipped = ShippedMotions();
   if (arguments.names.empty()) return std::vector<MotionScript>(shipped.begin(), shipped.end());
@@ -229,6 +261,7 @@ int Motions(const Arguments& arguments) {
     }
   }
   Json report = Json::array();
+  std::string table = TableHead(cast);
   ProgressLine line("measuring");
   for (std::size_t i = 0; i < scripts->size(); ++i) {
     const MotionScript& script = (*scripts)[i];
@@ -239,6 +272,7 @@ int Motions(const Arguments& arguments) {
     Json facts = SourceFacts(script, player, check);
     const std::vector<FollowerGap> gaps = MeasureFollowers(script, cast, 5.0);
     PrintFollowers(gaps);
+    table += TableRow(script, check, gaps);
     std::fflush(stdout);
     facts["cast"] = Json::array();
     for (const FollowerGap& gap : gaps) {
@@ -254,6 +288,10 @@ int Motions(const Arguments& arguments) {
   if (!arguments.report.empty()) {
     const Json root = {{"performer", ScriptedPerformer().body.name}, {"motions", report}};
     const Result<void> written = WriteFileAtomically(arguments.report, root.dump(2) + "\n");
+    if (!written) return Fail(written.error());
+  }
+  if (!arguments.table.empty()) {
+    const Result<void> written = WriteFileAtomically(arguments.table, table);
     if (!written) return Fail(written.error());
   }
   return kDone;
@@ -277,6 +315,10 @@ Command AddMotionsCommand(CLI::App& program) {
       ->check(CLI::Range(1.0, 240.0))
       ->capture_default_str();
   line->add_option("--report", arguments->report, "Also write all figures, .json");
+  line->add_option("--table", arguments->table,
+                   "Also write a Markdown table: one row a motion, mean gaps in mm under copy and, "
+                   "after the arrow, under mdb")
+      ->type_name("FILE");
   line->add_option("--strips", arguments->strips,
                    "Instead draw each motion into this folder, .png: a row for the performer and "
                    "one for each follower");
