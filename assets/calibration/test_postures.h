@@ -15,7 +15,7 @@ namespace ego {
 enum class TestPosture : std::uint8_t {
   kArmsCrossed,
   kHandsOnBelly,
-  kHandsOnHead,
+  kHandOnHead,
   kCrossedLegs,
   kHandToAnkle,
 };
@@ -26,13 +26,14 @@ std::string_view Title(TestPosture posture);
 struct TestPostureResult {
   Pose pose;  // of the avatar
   /// Of the surfaces that touch on the performer: the largest distance that is left between them
-  /// on the avatar, metres; negative when they sink into each other instead (palms against all of
-  /// the body, calf against thigh). Zero for an amount below 1, where nothing touches yet.
+  /// on the avatar beyond the performer's own, metres; negative when they sink into each other
+  /// instead. Zero for an amount below 1, where nothing touches yet.
   double contact_gap = 0.0;
 };
 
-/// An average performer in the test postures, hands laid on its own skin, and what the egocentric
-/// method makes of them on any avatar. Applying is a frame's work.
+/// The studio's performer at one instant each of shipped motions (assets/motions), and what the
+/// egocentric method makes of them on any avatar. Making it takes about a second, applying a
+/// frame's work.
 class TestPostures {
  public:
   TestPostures();

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "assets/mesh/surface_mesh.h"
+#include "assets/motions/motions.h"
 #include "core/model/mesh_picker.h"
-#include "tests/support/capsule_person.h"
 
 namespace ego::test {
 namespace {
@@ -45,10 +45,10 @@ std::size_t TriangleCount(const Character& character) {
   return count;
 }
 
-/// A person of at least 100 000 triangles.
+/// The performer in at least 100 000 triangles.
 const std::shared_ptr<const Character>& FinePerson() {
   static const auto kPerson = [] {
-    Character person = MakeCapsulePerson();
+    Character person = ScriptedPerformer().character;
     while (TriangleCount(person) < 100000) {
       for (MeshPart& part : person.parts) Subdivide(part);
     }
