@@ -63,7 +63,8 @@ Json Contacts(const ContactScore& score) {
       {"mean_gap_error_percent", Rounded(100.0 * score.gap_error.Mean())},
       {"max_gap_error_percent", Rounded(100.0 * score.gap_error.max)},
       {"recall", Rounded(score.Recall())},
-      {"reachable", score.reachable},
+      {"reachable", score.reachable_gap_error.count},
+      {"mean_gap_error_of_reachable_percent", Rounded(100.0 * score.reachable_gap_error.Mean())},
       {"recall_of_reachable", Rounded(score.ReachableRecall())},
   };
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/metrics/arm_reach.h"
 #include "core/metrics/surface_gap.h"
 
 namespace ego {
@@ -30,11 +31,12 @@ void ScoreContact(const Pair& pair, Limb arm, const Vec3& source, double source_
   const bool recalled = error <= pair.settings.reached_gap;
   if (recalled) ++score.recalled;
   const Vec3& wrist = pair.avatar.pose.Position(JointsOf(arm).end);
-  if (!WithinArmsReach(pair.avatar, arm, NearestPlace(pair.performer, arm, source),
-                       glm::distance(wrist, target))) {
+  const double depth = BoneDepth(pair.performer, arm, source) / height * pair.avatar.body->height;
+  if (!CanTouch(pair.avatar, arm, NearestPlace(pair.performer, arm, source),
+                glm::distance(wrist, target), depth)) {
     return;
   }
-  ++score.reachable;
+  score.reachable_gap_error.Add(error);
   if (recalled) ++score.reachable_recalled;
 }
 

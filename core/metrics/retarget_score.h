@@ -36,9 +36,9 @@ struct Statistic {
 struct ContactScore {
   Statistic gap_error;       // shares of height
   std::size_t recalled = 0;  // contacts whose error stays below `reached_gap`
-  /// Contacts whose place on the avatar its straight arm is long enough for; others no method can
-  /// keep.
-  std::size_t reachable = 0;
+  /// The same where the avatar's arm can bring the point to its place in any posture at all
+  /// (CanTouch); the others no method can keep.
+  Statistic reachable_gap_error;
   std::size_t reachable_recalled = 0;
   /// 1 when there was nothing to keep.
   double Recall() const {
@@ -48,9 +48,9 @@ struct ContactScore {
   }
   /// The same among the reachable ones.
   double ReachableRecall() const {
-    return reachable == 0
-               ? 1.0
-               : static_cast<double>(reachable_recalled) / static_cast<double>(reachable);
+    return reachable_gap_error.count == 0 ? 1.0
+                                          : static_cast<double>(reachable_recalled) /
+                                                static_cast<double>(reachable_gap_error.count);
   }
 };
 

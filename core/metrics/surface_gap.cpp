@@ -52,23 +52,6 @@ double CapsuleDistance(const Vec3& p, const Vec3& a, const Vec3& b, double radiu
   return glm::distance(p, glm::mix(a, b, ClosestOnSegment(p, a, b))) - radius;
 }
 
-/// A limb's capsule, or after them the hand of the other arm.
-struct Bone {
-  Vec3 start{0.0};
-  Vec3 end{0.0};
-  double radius = 0.0;
-};
-Bone BoneOf(const MeasuredBody& body, Limb arm, std::size_t k) {
-  if (k < kSegmentCount) {
-    const auto segment = static_cast<LimbSegment>(k);
-    return {body.pose.Position(StartJoint(segment)), body.pose.Position(EndJoint(segment)),
-            body.body->surface.limb_radius[k]};
-  }
-  const std::size_t other = Index(Mirror(arm));
-  return {body.pose.Position(JointsOf(Mirror(arm)).end), body.Fingertip(other),
-          body.body->surface.hand[other].half_thickness};
-}
-
 }  // namespace
 
 MeasuredBody::MeasuredBody(const Body& measured, const Pose& posture)
@@ -85,6 +68,13 @@ Vec3 MeasuredBody::Palm(std::size_t side) const {
 Vec3 MeasuredBody::Fingertip(std::size_t side) const {
   return PosePoint(canonical, pose, side == 0 ? J::kLeftHand : J::kRightHand,
                    body->surface.hand[side].fingertip_ms);
+}
+Vec3 MeasuredBody::HandEnd(std::size_t side) const {
+  const HandSurface& hand = body->surface.hand[side];
+  const J joint = side == 0 ? J::kLeftHand : J::kRightHand;
+  const Vec3 along = hand.fingertip_ms - canonical[Index(joint)];
+  return PosePoint(canonical, pose, joint,
+                   hand.fingertip_ms - glm::dot(along, hand.palm_normal_ms) * hand.palm_normal_ms);
 }
 Vec3 MeasuredBody::Heel(std::size_t side) const {
   return PosePoint(canonical, pose, side == 0 ? J::kLeftFoot : J::kRightFoot,
@@ -115,10 +105,8 @@ double SurfaceGap(const MeasuredBody& body, Limb arm, const Vec3& p) {
                                         body.pose.Position(EndJoint(segment)),
                                         body.body->surface.limb_radius[s]));
   }
-  const std::size_t other = Index(Mirror(arm));
-  return std::min(
-      gap, CapsuleDistance(p, body.pose.Position(JointsOf(Mirror(arm)).end), body.Fingertip(other),
-                           body.body->surface.hand[other].half_thickness));
+  const MeasuredBone hand = BoneOf(body, arm, kSegmentCount);
+  return std::min(gap, CapsuleDistance(p, hand.start, hand.end, hand.radius));
 }
 
 SurfacePlace NearestPlace(const MeasuredBody& body, Limb arm, const Vec3& p) {
@@ -137,7 +125,7 @@ SurfacePlace NearestPlace(const MeasuredBody& body, Limb arm, const Vec3& p) {
   }
   for (std::size_t k = 0; k <= kSegmentCount; ++k) {
     if (k < kSegmentCount && LimbOf(static_cast<LimbSegment>(k)) == arm) continue;
-    const Bone bone = BoneOf(body, arm, k);
+    const MeasuredBone bone = BoneOf(body, arm, k);
     const double axial = ClosestOnSegment(p, bone.start, bone.end);
     const double distance = glm::distance(p, glm::mix(bone.start, bone.end, axial)) - bone.radius;
     if (distance < least) {
@@ -148,23 +136,24 @@ SurfacePlace NearestPlace(const MeasuredBody& body, Limb arm, const Vec3& p) {
   return nearest;
 }
 
-bool WithinArmsReach(const MeasuredBody& body, Limb arm, const SurfacePlace& place,
-                     double beyond_wrist) {
-  const LimbJoints joints = JointsOf(arm);
-  const Vec3& shoulder = body.pose.Position(joints.base);
-  const double reach = BoneLength(body.body->skeleton, joints.mid) +
-                       BoneLength(body.body->skeleton, joints.end) + beyond_wrist;
-  if (place.on_mesh) {
-    Vec3 p{0.0};
-    for (std::size_t k = 0; k < 3; ++k) {
-      p += place.barycentric[static_cast<int>(k)] *
-           body.sample_ws[Index(SampleTriangles()[place.index][k])];
-    }
-    return glm::distance(shoulder, p) <= reach;
+MeasuredBone BoneOf(const MeasuredBody& body, Limb arm, std::size_t k) {
+  if (k < kSegmentCount) {
+    const auto segment = static_cast<LimbSegment>(k);
+    return {body.pose.Position(StartJoint(segment)), body.pose.Position(EndJoint(segment)),
+            body.body->surface.limb_radius[k]};
   }
-  const Bone bone = BoneOf(body, arm, place.index);
-  const Vec3 axis = glm::mix(bone.start, bone.end, place.axial);
-  return glm::distance(shoulder, axis) - bone.radius <= reach;
+  const std::size_t other = Index(Mirror(arm));
+  return {body.pose.Position(JointsOf(Mirror(arm)).end), body.HandEnd(other),
+          body.body->surface.hand[other].half_thickness};
+}
+
+Vec3 OnMesh(const MeasuredBody& body, const SurfacePlace& place) {
+  Vec3 p{0.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    p += place.barycentric[static_cast<int>(k)] *
+         body.sample_ws[Index(SampleTriangles()[place.index][k])];
+  }
+  return p;
 }
 
 double ArmDepth(const MeasuredBody& body, Limb arm) {

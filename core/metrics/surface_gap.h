@@ -19,6 +19,9 @@ struct MeasuredBody {
   std::array<Vec3, kSampleCount> sample_ws;
 
   Vec3 Palm(std::size_t side) const;
+  /// The end of the hand's capsule, from the wrist in the middle of the hand's thickness, so that
+  /// palm and fingertip lie on its skin.
+  Vec3 HandEnd(std::size_t side) const;
   Vec3 Fingertip(std::size_t side) const;
   Vec3 Heel(std::size_t side) const;
   Vec3 Ball(std::size_t side) const;
@@ -44,10 +47,16 @@ struct SurfacePlace {
 };
 SurfacePlace NearestPlace(const MeasuredBody& body, Limb arm, const Vec3& p);
 
-/// Whether the straight arm of a body, from where its shoulder is, is long enough to bring a point
-/// `beyond_wrist` metres from the wrist to that place of its surface.
-bool WithinArmsReach(const MeasuredBody& body, Limb arm, const SurfacePlace& place,
-                     double beyond_wrist);
+/// Bone or hand on which a place lies that is not on a mesh, as a capsule in place.
+struct MeasuredBone {
+  Vec3 start{0.0};
+  Vec3 end{0.0};
+  double radius = 0.0;
+};
+/// Segment `k` of the limbs, or after them the hand of the arm that is not `arm`.
+MeasuredBone BoneOf(const MeasuredBody& body, Limb arm, std::size_t k);
+/// The place on a body's trunk or head.
+Vec3 OnMesh(const MeasuredBody& body, const SurfacePlace& place);
 
 /// How deep the capsules of an arm sink into trunk or head, metres, zero if nowhere. The half of
 /// the upper arm at the shoulder belongs to the trunk and does not count.

@@ -62,11 +62,11 @@ TEST(RetargetScore, KnowsWhatAnArmIsTooShortFor) {
   RetargetScore own;
   Accumulate(performer, pose, performer, pose, 60.0, {}, own);
   ASSERT_GT(own.palm.gap_error.count, 0u);
-  EXPECT_EQ(own.palm.reachable, own.palm.gap_error.count);
+  EXPECT_EQ(own.palm.reachable_gap_error.count, own.palm.gap_error.count);
   RetargetScore short_armed;
   Accumulate(performer, pose, stump, pose, 60.0, {}, short_armed);
   EXPECT_EQ(short_armed.palm.gap_error.count, own.palm.gap_error.count);
-  EXPECT_EQ(short_armed.palm.reachable, 0u);
+  EXPECT_EQ(short_armed.palm.reachable_gap_error.count, 0u);
   EXPECT_EQ(short_armed.palm.ReachableRecall(), 1.0);
 }
 
