@@ -68,7 +68,7 @@ TEST(RetargetRealTake, HandsStayOnTheBodyWithoutJumps) {
       EXPECT_LT(contact.gap_error.Mean(), 0.005) << avatar.name;
       // The woman's wrists miss 4 of 54 by a little.
       EXPECT_GT(contact.ReachableRecall(), 0.92) << avatar.name;
-      reachable += static_cast<double>(contact.reachable);
+      reachable += static_cast<double>(contact.reachable_gap_error.count);
       recalled += static_cast<double>(contact.reachable_recalled);
     }
     EXPECT_GT(recalled, 0.97 * reachable) << avatar.name;
