@@ -67,8 +67,11 @@ void AdaptPair(AdaptState& state, const std::array<Limb, 2>& pair, double w, boo
   }
   std::array<LimbPosture, 2> posture =
       BlendedIk({TaskOf(state, pair[0], targets[0], w), TaskOf(state, pair[1], targets[1], w)});
-  for (std::size_t k = 0; with_planes && k < 2; ++k) {
-    posture[k] = EnsureSpatialOrder(state, pair[k], posture[k], w);
+  for (std::size_t k = 0; k < 2; ++k) {
+    // Without planes legs still do not pass through each other; arms are kept clear at the end.
+    if (!with_planes && IsArm(pair[k])) break;
+    const double overlap = with_planes ? 0.0 : state.settings.leg_overlap;
+    posture[k] = EnsureSpatialOrder(state, pair[k], posture[k], w, overlap);
   }
   for (std::size_t k = 0; k < 2; ++k) state.Apply(pair[k], posture[k]);
 }

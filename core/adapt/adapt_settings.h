@@ -14,7 +14,8 @@ struct AdaptSettings {
   /// mu of figure 14, radii by which a plane is held back at first. Below 1: planes jerk early
   /// iterations; above 4: more penetration.
   double plane_retreat = 1.5;
-  /// Metres over which a violated plane takes hold. 0: kinks; larger: that much may stay violated.
+  /// Metres over which a violated plane takes hold. 0: kinks; larger: that much may stay violated;
+  /// endless: no planes.
   double plane_ramp = 0.018;
   /// Width of the blend between straight and bent, in chord deficit 1 - cos(flexion), where the
   /// captured limb is neither. 0: elbows snap when the reach is exceeded; .05: an arm that reaches
@@ -46,6 +47,9 @@ struct AdaptSettings {
   /// Whether a limb's end is put back after its base joint turned for a plane, and one pass over
   /// the positions without planes ends the adaptation. Off: planes pull hands off their contacts.
   bool restore_ends = true;
+  /// Share of both radii by which legs may sink into each other in that pass. 0: thick legs are
+  /// thrown about as they pass each other; 1: short legs that are crossed pass through each other.
+  double leg_overlap = 0.5;
   /// Whether hands keep the performer's direction in the world before they are aligned with the
   /// surface. Off: they follow the forearm.
   bool hands_keep_direction = true;

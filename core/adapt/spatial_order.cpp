@@ -82,7 +82,7 @@ bool IsInOrder(const AdaptState& state, LimbSegment segment, const PosedCapsule&
 }  // namespace
 
 LimbPosture EnsureSpatialOrder(const AdaptState& state, Limb limb, const LimbPosture& posture,
-                               double w) {
+                               double w, double overlap) {
   const LimbChain& chain = state.chain[Index(limb)];
   const double ramp = state.scale * state.settings.plane_ramp;
   const auto capsules_of = [&](std::size_t k) {
@@ -110,6 +110,7 @@ LimbPosture EnsureSpatialOrder(const AdaptState& state, Limb limb, const LimbPos
       if (!(relaxed.strength > 0.0)) continue;
       HalfSpace active = Activate(relaxed.half_space, state.settings.plane_retreat * own.radius, w);
       active.offset += own.radius;  // deflation (figure 17b)
+      active.offset -= overlap * (own.radius + obstacle.radius);
       if (part == 0) {
         const LimbPosture turned = SatisfyUpper(chain, ordered, active, ramp, relaxed.strength);
         ordered = state.settings.restore_ends ? ReachEnd(chain, turned, placed.end) : turned;
