@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/capsule_person.h"
+#include "tests/support/skin_oracle.h"
 
 namespace ego {
 namespace {
@@ -41,17 +42,7 @@ TEST_F(MeshBvhTest, FindsTheCrossingsThatBruteForceFinds) {
     const Vec3 direction = glm::normalize(RandomPoint() - origin);
     std::vector<double> expected;
     EachTriangle([&](const Vec3& a, const Vec3& b, const Vec3& c) {
-      const Vec3 n = glm::cross(b - a, c - a);
-      const double along = glm::dot(direction, n);
-      if (along == 0.0) return;
-      const double t = glm::dot(a - origin, n) / along;
-      const Vec3 q = origin + t * direction;
-      if (t < 0.0 || glm::dot(glm::cross(b - a, q - a), n) < 0.0 ||
-          glm::dot(glm::cross(c - b, q - b), n) < 0.0 ||
-          glm::dot(glm::cross(a - c, q - c), n) < 0.0) {
-        return;
-      }
-      expected.push_back(t);
+      if (const auto t = test::CrossingOf(origin, direction, a, b, c)) expected.push_back(*t);
     });
     std::sort(expected.begin(), expected.end());
     const auto hits = bvh_.AllHits(origin, direction, 1e6);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/mesh_picker.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include "core/model/rig.h"
 #include "tests/support/capsule_person.h"
+#include "tests/support/skin_oracle.h"
 
 namespace ego {
 namespace {
@@ -53,17 +55,7 @@ class MeshPickerTest : public ::testing::Test {
   double FirstCrossing(const Vec3& origin, const Vec3& direction) const {
     double first = kNone;
     EachTriangle([&](const Vec3& a, const Vec3& b, const Vec3& c) {
-      const Vec3 n = glm::cross(b - a, c - a);
-      const double along = glm::dot(direction, n);
-      if (along == 0.0) return;
-      const double t = glm::dot(a - origin, n) / along;
-      const Vec3 q = origin + t * direction;
-      if (t < 0.0 || t > first || glm::dot(glm::cross(b - a, q - a), n) < 0.0 ||
-          glm::dot(glm::cross(c - b, q - b), n) < 0.0 ||
-          glm::dot(glm::cross(a - c, q - c), n) < 0.0) {
-        return;
-      }
-      first = t;
+      if (const auto t = test::CrossingOf(origin, direction, a, b, c)) first = std::min(first, *t);
     });
     return first;
   }

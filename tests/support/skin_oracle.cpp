@@ -86,6 +86,20 @@ double DistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
   return std::min({to_segment(a, b), to_segment(b, c), to_segment(c, a)});
 }
 
+std::optional<double> CrossingOf(const Vec3& origin, const Vec3& direction, const Vec3& a,
+                                 const Vec3& b, const Vec3& c) {
+  const Vec3 n = glm::cross(b - a, c - a);
+  const double along = glm::dot(direction, n);
+  if (along == 0.0) return std::nullopt;
+  const double t = glm::dot(a - origin, n) / along;
+  const Vec3 q = origin + t * direction;
+  if (t < 0.0 || glm::dot(glm::cross(b - a, q - a), n) < 0.0 ||
+      glm::dot(glm::cross(c - b, q - b), n) < 0.0 || glm::dot(glm::cross(a - c, q - c), n) < 0.0) {
+    return std::nullopt;
+  }
+  return t;
+}
+
 double DistanceTo(const Vec3& p, const Skin& skin) {
   double best = 1e9;
   for (const auto& t : skin.triangles) {

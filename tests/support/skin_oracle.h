@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/base/math.h"
@@ -29,6 +30,11 @@ Skin WeldedSkinOf(const Character& character);
 Skin WeldedSkinOf(const Character& character, const Pose& pose);
 
 double DistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Where a ray crosses a triangle, by its plane and the sides of its edges: the distance in lengths
+/// of `direction`, nothing where it does not.
+std::optional<double> CrossingOf(const Vec3& origin, const Vec3& direction, const Vec3& a,
+                                 const Vec3& b, const Vec3& c);
 
 /// To the nearest triangle.
 double DistanceTo(const Vec3& p, const Skin& skin);
