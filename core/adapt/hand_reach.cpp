@@ -11,7 +11,7 @@ namespace ego {
 namespace {
 
 /// In arm's lengths beyond the arm's reach: over which a target becomes too far.
-constexpr double kRamp = 0.10;
+constexpr double kRamp = 0.20;
 /// What is used of the way to pointing straight at the place, at most: there the angle would end
 /// in a kink.
 constexpr double kMostTurn = 0.9;

@@ -27,7 +27,7 @@ struct Reaching {
     const Vec3 hand = Hand();
     const Vec3 across = NormalizedOr(glm::cross(hand, Vec3{0.3, 0.4, 0.5}), Vec3{0.0});
     // Hand and way to the place enclose 90 degrees at the wrist.
-    targets.end = chain.base_ws + (1.08 * chain.Reach()) * across;
+    targets.end = chain.base_ws + (1.25 * chain.Reach()) * across;
     targets.mid = targets.end;
   }
   Vec3 Hand() const {
@@ -63,7 +63,7 @@ TEST(ReachWithHand, LeavesAloneWhatIsWithinReachOrFarFromSurfaces) {
   };
   Reaching near(0.001);
   const LimbChain& chain = near.state->chain[Index(kArm)];
-  near.targets.end = glm::mix(chain.base_ws, near.targets.end, 0.9);
+  near.targets.end = glm::mix(chain.base_ws, near.targets.end, 0.7);
   EXPECT_TRUE(is_left_alone(near));
 
   Reaching off(0.001);
