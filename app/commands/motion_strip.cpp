@@ -40,6 +40,23 @@ double HalfWidth(const std::vector<Pose>& poses, const Body& body, double yaw) {
   return widest / body.height;
 }
 
+/// Spread over the motion, or over its touches where there are far more of them than instants.
+std::vector<double> InstantsOf(const MotionScript& script, const MotionPlayer& player, int count) {
+  std::vector<double> touches;
+  for (const TrueContact& contact : player.contacts()) {
+    touches.push_back(0.5 * (contact.from_s + contact.to_s));
+  }
+  std::vector<double> instants;
+  for (int i = 0; i < count; ++i) {
+    const double share = (i + 0.5) / count;
+    const auto touch = static_cast<std::size_t>(share * static_cast<double>(touches.size()));
+    instants.push_back(touches.size() >= 2 * static_cast<std::size_t>(count)
+                           ? touches[touch]
+                           : share * script.Duration());
+  }
+  return instants;
+}
+
 void Paste(const Image& cell, int x, int y, Image& sheet) {
   for (int row = 0; row < cell.height; ++row) {
     std::copy_n(
@@ -75,8 +92,8 @@ Result<Image> MotionStrips::Draw(const MotionScript& script, const Look& look) {
   const MotionFigure figure(performer);
   const MotionPlayer player(figure, script);
   std::vector<Pose> poses;
-  for (int c = 0; c < look.columns; ++c) {
-    poses.push_back(player.At(script.Duration() * (c + 0.5) / look.columns));
+  for (const double time : InstantsOf(script, player, look.columns)) {
+    poses.push_back(player.At(time));
   }
   const double half = std::max(0.22, HalfWidth(poses, performer.body, look.yaw) + 0.10);
   const int width = 2 * static_cast<int>(std::ceil(half * look.cell_height / kView));

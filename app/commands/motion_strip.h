@@ -14,7 +14,8 @@
 namespace ego {
 
 /// Draws motions as strips: one row for each person, one column for each of `columns` instants
-/// spread over the motion. The first person performs, the others follow by `method`.
+/// spread over the motion, or over its touches where there are far more of them. The first person
+/// performs, the others follow by `method`.
 class MotionStrips {
  public:
   struct Look {

@@ -57,6 +57,7 @@ struct FollowerGap {
 };
 
 double Millimetres(double metres) { return std::round(metres * 1e5) / 100.0; }
+double RoundedToMilliseconds(double seconds) { return std::round(seconds * 1e3) / 1e3; }
 
 std::vector<FollowerGap> MeasureFollowers(const MotionScript& script,
                                           const std::vector<std::unique_ptr<Follower>>& cast,
@@ -131,35 +132,55 @@ Json SourceFacts(const MotionScript& script, const MotionPlayer& player, const M
   for (std::size_t c = 0; c < check.contacts.size(); ++c) {
     const TrueContact& contact = player.contacts()[c];
     contacts.push_back({{"what", contact.Sentence()},
-                        {"from_s", contact.from_s},
-                        {"to_s", contact.to_s},
+                        {"from_s", RoundedToMilliseconds(contact.from_s)},
+                        {"to_s", RoundedToMilliseconds(contact.to_s)},
                         {"slides", contact.Slides()},
                         {"gap", GapFacts(check.contacts[c])}});
   }
   return {{"name", script.name},
           {"study", script.study},
           {"title", script.title},
-          {"duration_s", script.Duration()},
+          {"duration_s", RoundedToMilliseconds(script.Duration())},
           {"contacts", contacts},
           {"deepest_interpenetration_mm", Millimetres(check.sinking.depth)},
           {"deepest_of", std::string(Name(check.sinking.of))},
           {"deepest_in", std::string(Name(check.sinking.in))},
-          {"deepest_at_s", check.sinking_at_s},
+          {"deepest_at_s", RoundedToMilliseconds(check.sinking_at_s)},
           {"largest_joint_speed_deg_per_s", std::round(check.largest_speed)},
-          {"largest_joint_acceleration_deg_per_s2", std::round(check.largest_acceleration)}};
+          {"largest_joint_acceleration_deg_per_s2", std::round(check.largest_acceleration)},
+          {"largest_wrist_bend_deg", std::round(check.largest_wrist)}};
 }
 
-void PrintFollowers(const std::vector<FollowerGap>& gaps) {
+// The touch that is farthest from the skin, of those that were compared.
+std::string WorstTouch(const MotionPlayer& player, const FollowerGap& gap) {
+  const auto distance = [](const ContactGap& g) { return std::max(g.widest, g.deepest); };
+  const auto worst = std::max_element(
+      gap.contacts.begin(), gap.contacts.end(),
+      [&](const ContactGap& a, const ContactGap& b) { return distance(a) < distance(b); });
+  const TrueContact& contact =
+      player.contacts()[static_cast<std::size_t>(worst - gap.contacts.begin())];
+  std::array<char, 32> at;
+  std::snprintf(at.data(), at.size(), " at %.2f s", contact.from_s);
+  return contact.Sentence() + at.data();
+}
+
+void PrintFollowers(const MotionPlayer& player, const std::vector<FollowerGap>& gaps) {
   const std::size_t half = gaps.size() / 2;
   for (std::size_t f = 0; f < half; ++f) {
     if (gaps[f].all.samples == 0) continue;
-    std::printf("  %-10s", gaps[f].follower.c_str());
     for (const FollowerGap* gap : {&gaps[f], &gaps[f + half]}) {
-      std::printf("  %s: gap %5.1f mm (widest %5.1f, deepest %5.1f), off place %5.1f mm%s",
-                  gap->method.c_str(), 1000.0 * gap->all.mean_abs, 1000.0 * gap->all.widest,
-                  1000.0 * gap->all.deepest, 1000.0 * gap->all.off_place,
-                  gap->method == "copy" ? ";" : "\n");
+      std::printf(
+          "  %-10s %-4s  gap %5.1f mm  outside by up to %5.1f  inside by up to %5.1f  "
+          "off place %5.1f  worst: %s\n",
+          gap == &gaps[f] ? gap->follower.c_str() : "", gap->method.c_str(),
+          1000.0 * gap->all.mean_abs, 1000.0 * gap->all.widest, 1000.0 * gap->all.deepest,
+          1000.0 * gap->all.off_place, WorstTouch(player, *gap).c_str());
     }
+  }
+  const std::vector<TrueContact>& contacts = player.contacts();
+  if (half > 0 && std::any_of(contacts.begin(), contacts.end(),
+                              [](const TrueContact& c) { return c.plate_ws.has_value(); })) {
+    std::printf("  plates stand where the performer's stand: touches on them are not compared\n");
   }
 }
 
@@ -271,7 +292,7 @@ int Motions(const Arguments& arguments) {
     PrintSource(script, player, check);
     Json facts = SourceFacts(script, player, check);
     const std::vector<FollowerGap> gaps = MeasureFollowers(script, cast, 5.0);
-    PrintFollowers(gaps);
+    PrintFollowers(player, gaps);
     table += TableRow(script, check, gaps);
     std::fflush(stdout);
     facts["cast"] = Json::array();
