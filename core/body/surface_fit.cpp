@@ -20,7 +20,7 @@ constexpr double kTolerance = 0.003;  // metres: skin gives way
 constexpr double kDeep = 0.010;       // metres
 constexpr double kShare = 0.05;       // of the frames: what counts as again and again
 constexpr double kQuantile = 0.75;    // of the depths
-constexpr double kLeast = 0.85;       // of the original size
+constexpr double kLeast = 0.80;       // of the original size
 
 /// A ball on an arm, at one instant.
 struct Probe {

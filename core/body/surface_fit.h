@@ -29,7 +29,7 @@ struct SurfaceFit {
 /// the forearm and the middle of the hand are probes with the capsule's (hand's) thickness. Where
 /// probes sink in by more than 3 mm in at least 5 % of the frames, the samples around the deepest
 /// places are moved towards the body's middle by the upper quartile of the depth, in a few rounds;
-/// then capsules that still overlap get thinner. Both stop at 0.85 of what they were: more would
+/// then capsules that still overlap get thinner. Both stop at 0.80 of what they were: more would
 /// cost contacts that are real. Both sides are treated alike.
 ///
 /// Nothing changes for an empty motion or one that proves nothing. Deterministic.
