@@ -7,9 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include "assets/calibration/calibration_document.h"
+#include "assets/gltf/character_file.h"
 #include "assets/takes/bvh.h"
 #include "core/baselines/retarget_method.h"
 #include "core/metrics/retarget_score.h"
+#include "core/model/avatar_body.h"
 #include "core/pipeline/skeleton_capture.h"
 #include "tests/support/bodies.h"
 #include "tests/support/shared_data.h"
@@ -76,6 +79,41 @@ TEST(RetargetRealTake, HandsStayOnTheBodyWithoutJumps) {
         << avatar.name << " frame " << outcome.method.largest_added_step_frame;
     EXPECT_LT(outcome.method.foot_height_error.Mean(), 0.003) << avatar.name;
     EXPECT_LT(outcome.method.foot_slide.Mean(), 0.003) << avatar.name;
+  }
+}
+
+/// Arms of a quarter and of a sixth of the height: with the hand across they end short of most
+/// places that they can reach with it outstretched.
+TEST(RetargetRealTake, ShortArmsTouchWhatTheyCanReach) {
+  EGO_SHARED_DATA_OR_SKIP(path, "bvh/cmu_02_10.bvh");
+  const auto motion = ReadBvh(path);
+  ASSERT_TRUE(motion) << motion.error();
+  const auto take = CaptureFromJointMotion(*motion);
+  ASSERT_TRUE(take) << take.error();
+  const auto method = MakeRetargetMethod("mdb");
+  for (const auto& file :
+       {SharedData("avatars/m2m_human-bunny.glb"), SharedData("avatars/sumerian_alien.glb")}) {
+    auto character = ReadCharacter(file);
+    ASSERT_TRUE(character) << character.error();
+    const auto calibrated = LoadCalibrated(*std::move(character));
+    ASSERT_TRUE(calibrated) << calibrated.error();
+    const Body avatar = MakeAvatarBody(*calibrated->character, calibrated->calibration);
+    RetargetScore score;
+    for (std::size_t f = 24; f < take->poses.size(); f += 6) {
+      Pose out;
+      method->SetPerformerPose(take->performer, take->poses[f]);
+      method->Adapt(avatar, out);
+      Accumulate(take->performer, take->poses[f], avatar, out, take->rate_hz, {}, score);
+    }
+    const ContactScore& palm = score.palm;
+    const ContactScore& tip = score.fingertip;
+    const std::size_t reachable = palm.reachable_gap_error.count + tip.reachable_gap_error.count;
+    EXPECT_GT(palm.reachable_gap_error.count, 15u) << file;
+    EXPECT_GT(static_cast<double>(palm.reachable_recalled + tip.reachable_recalled),
+              0.95 * static_cast<double>(reachable))
+        << file;
+    EXPECT_LT(palm.reachable_gap_error.Mean(), 0.005) << file;
+    EXPECT_LT(tip.reachable_gap_error.Mean(), 0.005) << file;
   }
 }
 
