@@ -79,23 +79,25 @@ std::vector<glm::vec3> AsVec3(const std::vector<float>& numbers) {
   return out;
 }
 
-/// Area-weighted vertex normals where the file has none; unit length everywhere.
+/// Area-weighted vertex normals where the file has none; unit length everywhere. In double
+/// precision: squares of what a file may say do not fit into a float.
 void FinishNormals(MeshPart& part) {
-  const bool computed = part.normals.size() != part.positions.size();
-  if (computed) {
-    part.normals.assign(part.positions.size(), glm::vec3(0.0f));
+  std::vector<Vec3> normals(part.normals.begin(), part.normals.end());
+  if (normals.size() != part.positions.size()) {
+    normals.assign(part.positions.size(), Vec3{0.0});
     for (std::size_t t = 0; t + 2 < part.triangles.size(); t += 3) {
-      const std::uint32_t a = part.triangles[t];
-      const std::uint32_t b = part.triangles[t + 1];
-      const std::uint32_t c = part.triangles[t + 2];
-      const glm::vec3 normal =
-          glm::cross(part.positions[b] - part.positions[a], part.positions[c] - part.positions[a]);
-      for (const std::uint32_t corner : {a, b, c}) part.normals[corner] += normal;
+      const Vec3 a(part.positions[part.triangles[t]]);
+      const Vec3 b(part.positions[part.triangles[t + 1]]);
+      const Vec3 c(part.positions[part.triangles[t + 2]]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        normals[part.triangles[t + k]] += glm::cross(b - a, c - a);
+      }
     }
   }
-  for (glm::vec3& normal : part.normals) {
-    const float length = glm::length(normal);
-    normal = length > 1e-20f ? normal / length : glm::vec3(0.0f, 1.0f, 0.0f);
+  part.normals.resize(normals.size());
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    const double length = glm::length(normals[v]);
+    part.normals[v] = length > 1e-60 ? glm::vec3(normals[v] / length) : glm::vec3(0.0f, 1.0f, 0.0f);
   }
 }
 
