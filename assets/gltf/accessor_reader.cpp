@@ -27,7 +27,7 @@ View Locate(const tinygltf::Model& model, int view_index, std::size_t offset, st
       model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) return {};
   const std::size_t stride = strided && view.byteStride > 0 ? view.byteStride : size;
-  if (stride < size || offset > view.byteLength) return {};
+  if (size == 0 || stride < size || offset > view.byteLength) return {};
   const std::size_t room = view.byteLength - offset;
   if (count > 0 && (room < size || (count - 1) > (room - size) / stride)) return {};
   return {data.data() + view.byteOffset + offset, stride};
@@ -176,6 +176,11 @@ const tinygltf::Accessor* Find(const tinygltf::Model& model, int index, int comp
   // Both before anything is allocated for the elements.
   const std::size_t element =
       ComponentSize(accessor.componentType) * static_cast<std::size_t>(components);
+  if (element == 0) {
+    why = "has numbers of type " + std::to_string(accessor.componentType) +
+          ", which glTF does not know";
+    return nullptr;
+  }
   if (accessor.bufferView >= 0 &&
       Locate(model, accessor.bufferView, accessor.byteOffset, element, accessor.count, true)
               .first == nullptr) {
