@@ -88,7 +88,6 @@ std::string Visit(const tinygltf::Model& model, const tinygltf::Accessor& access
                   Put put) {
   const std::size_t size = ComponentSize(accessor.componentType);
   const auto per_element = static_cast<std::size_t>(components);
-  if (size == 0) return "has an unknown component type";
   // Columns of small-integer matrices are padded; no reader here needs those.
   const auto visit = [&](const View& view, std::size_t element, std::size_t at) {
     for (std::size_t c = 0; c < per_element; ++c) {
@@ -177,8 +176,7 @@ const tinygltf::Accessor* Find(const tinygltf::Model& model, int index, int comp
   const std::size_t element =
       ComponentSize(accessor.componentType) * static_cast<std::size_t>(components);
   if (element == 0) {
-    why = "has numbers of type " + std::to_string(accessor.componentType) +
-          ", which glTF does not know";
+    why = "has an unknown component type";
     return nullptr;
   }
   if (accessor.bufferView >= 0 &&
