@@ -48,8 +48,52 @@ Quat LocalRotation(J joint, const ModelPose& pose) {
   return glm::conjugate(pose.Rotation(Parent(joint))) * pose.Rotation(joint);
 }
 
-bool FollowsChild(const BoundMarker& marker) {
-  return marker.child != J::kHips && (marker.slides || marker.Share(SkinShare::kWithChild) != 0.0);
+constexpr bool IsFoot(J joint) { return joint == J::kLeftFoot || joint == J::kRightFoot; }
+
+using SlideJointList = std::array<J, kSlideJoints>;
+
+constexpr std::array<SlideJointList, kJointCount> MakeSlideJoints() {
+  std::array<SlideJointList, kJointCount> all{};
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    all[j].fill(J::kHips);
+    std::size_t n = 0;
+    all[j][n++] = static_cast<J>(j);
+    for (std::size_t c = 1; c < kJointCount; ++c) {
+      if (Index(kParent[c]) == j) all[j][n++] = static_cast<J>(c);
+    }
+  }
+  return all;
+}
+
+constexpr std::array<SlideJointList, kJointCount> kSlidesWith = MakeSlideJoints();
+
+/// Chains of a joint and of those among its children (bits, in the order of kSlidesWith) that its
+/// marker follows, too.
+struct Chains {
+  static constexpr std::size_t kSubsets = std::size_t{1} << (kSlideJoints - 1);
+  std::array<std::array<std::array<std::uint8_t, kPoseDof>, kSubsets>, kJointCount> dofs{};
+  std::array<std::array<std::size_t, kSubsets>, kJointCount> count{};
+
+  Chains() {
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      for (std::size_t subset = 0; subset < kSubsets; ++subset) {
+        std::array<bool, kPoseDof> moves{};
+        for (const std::uint8_t d : ego::Chain(static_cast<J>(j))) moves[d] = true;
+        for (std::size_t k = 1; k < kSlideJoints; ++k) {
+          if ((subset >> (k - 1) & 1u) == 0) continue;
+          for (const std::uint8_t d : ego::Chain(kSlidesWith[j][k])) moves[d] = true;
+        }
+        for (std::size_t d = 0; d < kPoseDof; ++d) {
+          if (moves[d]) dofs[j][subset][count[j][subset]++] = static_cast<std::uint8_t>(d);
+        }
+      }
+    }
+  }
+};
+
+/// Whether the joint is not one of those that carry the marker's own bone.
+bool IsChild(const BoundMarker& marker, J joint) {
+  return joint != J::kHips && Parent(joint) == marker.joint;
 }
 
 /// d(joint's rotation, on the right) / d(dof of that joint).
@@ -58,11 +102,9 @@ Vec3 RightTurn(const Dof& dof, const ModelPose& pose, const Vec3& axis_ws) {
   return glm::conjugate(pose.Rotation(dof.joint)) * axis_ws;
 }
 
-}  // namespace
-
-JointTurn TurnOf(HumanoidJoint joint, const Quat& rotation_ls) {
+JointTurn TurnFrom(const Quat& rest, const Quat& rotation) {
   constexpr double kSoftness = 0.02;
-  const Quat q = glm::conjugate(NeutralPosture().rotation_ls[Index(joint)]) * rotation_ls;
+  const Quat q = glm::conjugate(rest) * rotation;
   const Vec3 v{q.x, q.y, q.z};
   const double s = q.w * q.w + kSoftness;
   const double sign = q.w / std::sqrt(s);  // smooth: q and -q are one rotation
@@ -71,15 +113,46 @@ JointTurn TurnOf(HumanoidJoint joint, const Quat& rotation_ls) {
   return {2.0 * sign * v, sign * (q.w * Mat3{1.0} + cross) - d_sign * glm::outerProduct(v, v)};
 }
 
+JointTurn SlideTurn(const BoundMarker& marker, J joint, const ModelPose& pose) {
+  const Quat rotation = LocalRotation(joint, pose);
+  return IsFoot(joint) ? TurnFrom(marker.foot_rest_ls, rotation) : TurnOf(joint, rotation);
+}
+
+}  // namespace
+
+JointTurn TurnOf(HumanoidJoint joint, const Quat& rotation_ls) {
+  return TurnFrom(NeutralPosture().rotation_ls[Index(joint)], rotation_ls);
+}
+
+const std::array<HumanoidJoint, kSlideJoints>& SlideJoints(HumanoidJoint joint) {
+  return kSlidesWith[Index(joint)];
+}
+
+void TurnFootFrame(HumanoidJoint foot, const Quat& level, BoundMarker& marker) {
+  const J toes = foot == J::kLeftFoot ? J::kLeftToes : J::kRightToes;
+  const bool on_foot = marker.joint == foot || marker.joint == toes;
+  if (on_foot) marker.offset_ls = level * marker.offset_ls;
+  for (std::size_t k = 0; k < kSlideJoints; ++k) {
+    const J joint = SlideJoints(marker.joint)[k];
+    if (joint != foot && joint != toes) continue;
+    if (joint == foot) marker.foot_rest_ls = marker.foot_rest_ls * glm::conjugate(level);
+    Vec3* d = marker.slide.data() + kSlidesPerJoint * k;
+    const Mat3 turned = Mat3{d[0], d[1], d[2]} * glm::mat3_cast(glm::conjugate(level));
+    for (int axis = 0; axis < 3; ++axis) d[axis] = turned[axis];
+    if (!on_foot) continue;
+    for (std::size_t i = 0; i < kSlidesPerJoint; ++i) d[i] = level * d[i];
+  }
+}
+
 std::array<double, kSlideCount> SlideTurns(const BoundMarker& marker, const ModelPose& pose) {
   std::array<double, kSlideCount> turns{};
-  if (marker.joint != J::kHips) {
-    const Vec3 own = TurnOf(marker.joint, LocalRotation(marker.joint, pose)).value;
-    for (std::size_t i = 0; i < 3; ++i) turns[i] = own[static_cast<int>(i)];
-  }
-  if (marker.child != J::kHips) {
-    const Vec3 next = TurnOf(marker.child, LocalRotation(marker.child, pose)).value;
-    for (std::size_t i = 0; i < 3; ++i) turns[3 + i] = next[static_cast<int>(i)];
+  for (std::size_t k = 0; k < kSlideJoints; ++k) {
+    const J joint = SlideJoints(marker.joint)[k];
+    if (joint == J::kHips) continue;
+    const Vec3 turn = SlideTurn(marker, joint, pose).value;
+    double* of_joint = turns.data() + kSlidesPerJoint * k;
+    for (int axis = 0; axis < 3; ++axis) of_joint[axis] = turn[axis];
+    of_joint[3] = glm::dot(turn, turn);
   }
   return turns;
 }
@@ -125,7 +198,16 @@ Vec3 MarkerPosition(const BoundMarker& marker, const ModelPose& pose) {
 }
 
 std::span<const std::uint8_t> Chain(const BoundMarker& marker) {
-  return Chain(FollowsChild(marker) ? marker.child : marker.joint);
+  static const Chains kChains;
+  std::size_t subset = 0;
+  for (std::size_t k = 1; k < kSlideJoints; ++k) {
+    const J child = SlideJoints(marker.joint)[k];
+    if (child == J::kHips) continue;
+    const bool carried = marker.child == child && marker.Share(SkinShare::kWithChild) != 0.0;
+    if (carried || marker.slides) subset |= std::size_t{1} << (k - 1);
+  }
+  const std::size_t j = Index(marker.joint);
+  return std::span(kChains.dofs[j][subset]).first(kChains.count[j][subset]);
 }
 
 void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, const ModelPose& pose,
@@ -138,21 +220,24 @@ void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, cons
   const Vec3 own_arm = placed.own_ws - origin;
   const Vec3 moved =
       (1.0 - parent - child) * own_arm + child * (placed.child_ws - origin) + placed.slid_ws;
-  const bool follows_child = FollowsChild(marker);
-  Mat3 own_slide{0.0};  // d(slid_ws) / d(turn on the right of the own joint)
-  Mat3 child_slide{0.0};
+  std::array<Mat3, kSlideJoints> slide{};  // d(slid_ws) / d(turn on the right of the joint)
   if (marker.slides) {
     const Mat3 frame = glm::mat3_cast(pose.Rotation(marker.joint));
-    const auto& d = marker.slide;
-    if (marker.joint != J::kHips) {
-      own_slide = frame * Mat3{d[0], d[1], d[2]} *
-                  TurnOf(marker.joint, LocalRotation(marker.joint, pose)).gradient;
-    }
-    if (follows_child) {
-      child_slide = frame * Mat3{d[3], d[4], d[5]} *
-                    TurnOf(marker.child, LocalRotation(marker.child, pose)).gradient;
+    for (std::size_t k = 0; k < kSlideJoints; ++k) {
+      const J joint = SlideJoints(marker.joint)[k];
+      if (joint == J::kHips) continue;
+      const Vec3* d = marker.slide.data() + kSlidesPerJoint * k;
+      const JointTurn turn = SlideTurn(marker, joint, pose);
+      const Mat3 by_turn = Mat3{d[0], d[1], d[2]} + 2.0 * glm::outerProduct(d[3], turn.value);
+      slide[k] = frame * by_turn * turn.gradient;
     }
   }
+  const auto slid = [&](const Dof& dof, const Vec3& axis) {
+    for (std::size_t k = 0; k < kSlideJoints; ++k) {
+      if (SlideJoints(marker.joint)[k] == dof.joint) return slide[k] * RightTurn(dof, pose, axis);
+    }
+    return Vec3{0.0};
+  };
   Vec3 slip{0.0};  // per unit of twist
   Vec3 twist_gradient{0.0};
   if (twist != 0.0 && placed.bone_ws != Vec3{0.0}) {
@@ -167,7 +252,7 @@ void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, cons
       column_ws[i] = axis;
     } else if (dof.joint == marker.joint) {
       column_ws[i] = glm::cross(axis, moved);
-      if (marker.slides) column_ws[i] += own_slide * RightTurn(dof, pose, axis);
+      if (marker.slides) column_ws[i] += slid(dof, axis);
       if (twist == 0.0) continue;
       // A ball's step turns the joint's own axes; a hinge's axial angle is the twist itself.
       const double rate = dof.kind == DofKind::kBall ? twist_gradient[dof.axis]
@@ -175,9 +260,12 @@ void MarkerJacobian(const BoundMarker& marker, const CarriedMarker& placed, cons
                               ? glm::dot(twist_gradient, LimbBone(marker.joint))
                               : 0.0;
       column_ws[i] += rate * slip;
-    } else if (follows_child && dof.joint == marker.child) {
-      column_ws[i] = child * glm::cross(axis, placed.child_ws - pose.Position(marker.child));
-      if (marker.slides) column_ws[i] += child_slide * RightTurn(dof, pose, axis);
+    } else if (IsChild(marker, dof.joint)) {
+      column_ws[i] = Vec3{0.0};
+      if (dof.joint == marker.child) {
+        column_ws[i] = child * glm::cross(axis, placed.child_ws - pose.Position(marker.child));
+      }
+      if (marker.slides) column_ws[i] += slid(dof, axis);
     } else {
       column_ws[i] = glm::cross(axis, placed.point_ws - pose.Position(dof.joint));
     }

@@ -23,8 +23,11 @@ using SkinShares = std::array<double, kSkinShareCount>;
 
 /// How skin slides over its bone as joints turn, metres per radian in the bone's frame (soft tissue
 /// artefact as a linear function of the joint angles: Camomilla et al., J. Biomech. 46, 2013):
-/// first the three axes of the marker's own joint, then those of its child.
-inline constexpr std::size_t kSlideCount = 6;
+/// first by its own joint, then by each joint that hangs on its bone. Of each, the three
+/// axes of its turn, and the square of the turn: a hip bent far slides less per radian.
+inline constexpr std::size_t kSlideJoints = 4;
+inline constexpr std::size_t kSlidesPerJoint = 4;
+inline constexpr std::size_t kSlideCount = kSlidesPerJoint * kSlideJoints;
 using SkinSlides = std::array<Vec3, kSlideCount>;
 
 /// The turn of a joint from the neutral posture as slides see it: its rotation vector for turns up
@@ -43,10 +46,15 @@ struct BoundMarker {
   HumanoidJoint child = HumanoidJoint::kHips;  // of `joint`; unused while its share is zero
   SkinShares share{};
   SkinSlides slide{};
-  bool slides = false;  // any of `slide` is not zero
+  bool slides = false;            // any of `slide` is not zero
+  Quat foot_rest_ls = kIdentity;  // of its foot, where its turn counts as none
 
   double Share(SkinShare which) const { return share[static_cast<std::size_t>(which)]; }
 };
+
+/// The same skin on a foot whose frame is turned: rotation_ls * conjugate(level) for what was
+/// rotation_ls, and what hangs on it turned along. For markers of shin, foot and toes.
+void TurnFootFrame(HumanoidJoint foot, const Quat& level, BoundMarker& marker);
 
 /// Where a posed skeleton takes a marker: linear blend skinning between its bone and the two
 /// beside it, less a share of its own bone's twist.
@@ -62,8 +70,11 @@ struct CarriedMarker {
 
 CarriedMarker Carry(const BoundMarker& marker, const ModelPose& pose);
 
-/// The six turns that a marker's slides are per radian of. Zero where there is no such joint: the
-/// hips have no turn of their own, and not every marker has a child.
+/// The joints whose turns make a marker on this one's bone slide: itself, then those that hang on
+/// it. Hips where there is none, as they have no turn of their own.
+const std::array<HumanoidJoint, kSlideJoints>& SlideJoints(HumanoidJoint joint);
+
+/// The turns that a marker's slides are per radian of; zero where there is no such joint.
 std::array<double, kSlideCount> SlideTurns(const BoundMarker& marker, const ModelPose& pose);
 
 /// Position of a marker on a posed skeleton, world space.

@@ -16,7 +16,10 @@ constexpr std::size_t HingeOf(J joint) {
   return kLimbCount;
 }
 
-constexpr bool IsToes(J joint) { return joint == J::kLeftToes || joint == J::kRightToes; }
+/// The foot whose toes these are, or kToes.size().
+constexpr std::size_t ToesOf(J joint) {
+  return joint == kToes[0] ? 0 : joint == kToes[1] ? 1 : kToes.size();
+}
 
 struct Layout {
   std::array<Dof, kPoseDof> dofs{};
@@ -34,8 +37,9 @@ constexpr Layout MakeLayout() {
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const auto joint = static_cast<J>(j);
     layout.range[j].first = n;
-    if (IsToes(joint)) continue;
-    if (HingeOf(joint) < kLimbCount) {
+    if (ToesOf(joint) < kToes.size()) {
+      layout.dofs[n++] = {joint, DofKind::kFlexion, 0};
+    } else if (HingeOf(joint) < kLimbCount) {
       layout.dofs[n++] = {joint, DofKind::kFlexion, 0};
       layout.dofs[n++] = {joint, DofKind::kAxial, 0};
     } else {
@@ -58,7 +62,7 @@ constexpr Layout MakeLayout() {
 }
 
 constexpr Layout kLayout = MakeLayout();
-static_assert(kLayout.dofs[kPoseDof - 1].joint == J::kRightFoot);
+static_assert(kLayout.dofs[kPoseDof - 1].joint == J::kRightToes);
 
 Quat HingeRotation(Limb limb, double flexion, double axial) {
   return glm::angleAxis(flexion, FlexionAxis(limb)) *
@@ -79,8 +83,12 @@ Posture PostureFromPose(const Pose& pose) {
   Posture posture;
   posture.root_ws = pose.root_ws;
   posture.rotation_ls = pose.rotation_ls;
-  posture.rotation_ls[Index(J::kLeftToes)] = kIdentity;
-  posture.rotation_ls[Index(J::kRightToes)] = kIdentity;
+  for (std::size_t i = 0; i < kToes.size(); ++i) {
+    Quat& q = posture.rotation_ls[Index(kToes[i])];
+    const double half = std::atan2(glm::dot(Vec3{q.x, q.y, q.z}, kToeAxis), q.w);
+    posture.toes[i] = std::remainder(2.0 * half, 2.0 * kPi);
+    q = glm::angleAxis(posture.toes[i], kToeAxis);
+  }
   for (const Limb limb : kLimbs) {
     const std::size_t i = Index(limb);
     Quat& q = posture.rotation_ls[Index(JointsOf(limb).mid)];
@@ -124,6 +132,10 @@ Posture Moved(const Posture& posture, std::span<const double, kPoseDof> step) {
       moved.axial[limb] += step[range.first + 1];
       moved.rotation_ls[j] =
           HingeRotation(static_cast<Limb>(limb), moved.flexion[limb], moved.axial[limb]);
+    } else {
+      const std::size_t toes = ToesOf(joint);
+      moved.toes[toes] += step[range.first];
+      moved.rotation_ls[j] = glm::angleAxis(moved.toes[toes], kToeAxis);
     }
   }
   return moved;
@@ -144,6 +156,8 @@ void DofAxes(const ModelPose& model, std::array<Vec3, kPoseDof>& axis_ws) {
       const auto limb = static_cast<Limb>(HingeOf(joint));
       axis_ws[range.first] = model.rotation_ws[Index(kParent[j])] * FlexionAxis(limb);
       axis_ws[range.first + 1] = model.rotation_ws[j] * CanonicalDirection(limb);
+    } else {
+      axis_ws[range.first] = model.rotation_ws[j] * kToeAxis;
     }
   }
 }

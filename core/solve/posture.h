@@ -12,9 +12,9 @@
 
 namespace ego {
 
-/// Degrees of freedom of a posture: root translation and rotation, ball joints, and hinges
-/// (elbow, knee) of one flexion and one axial rotation. Toes stay straight.
-inline constexpr std::size_t kPoseDof = 59;
+/// Degrees of freedom of a posture: root translation and rotation, ball joints, hinges (elbow,
+/// knee) of one flexion and one axial rotation, and toes that bend.
+inline constexpr std::size_t kPoseDof = 61;
 
 /// What a degree of freedom does to what hangs on its joint.
 enum class DofKind : std::uint8_t { kTranslation, kBall, kFlexion, kAxial };
@@ -28,7 +28,7 @@ struct Dof {
 /// In joint order, so that a joint's chain has ascending indices.
 const std::array<Dof, kPoseDof>& Dofs();
 
-/// Index of a joint's first degree of freedom of rotation, and how many it has (toes: none).
+/// Index of a joint's first degree of freedom of rotation, and how many it has.
 struct DofRange {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -38,16 +38,23 @@ DofRange DofsOf(HumanoidJoint joint);
 /// The degrees of freedom that move points carried by a joint, ascending.
 std::span<const std::uint8_t> Chain(HumanoidJoint joint);
 
+/// The joints of toes, left first, and the axis they bend up about.
+inline constexpr std::array<HumanoidJoint, 2> kToes = {HumanoidJoint::kLeftToes,
+                                                       HumanoidJoint::kRightToes};
+inline constexpr Vec3 kToeAxis{-1.0, 0.0, 0.0};
+
 /// A pose on the solver's coordinates: mid joints of limbs are hinges,
 /// rotation = flexion about FlexionAxis, then axial rotation about the bone.
 struct Posture {
   Vec3 root_ws{0.0};
-  std::array<Quat, kJointCount> rotation_ls{};  // of mid joints: made from the two angles below
-  std::array<double, kLimbCount> flexion{};     // radians
-  std::array<double, kLimbCount> axial{};       // radians
+  std::array<Quat, kJointCount>
+      rotation_ls{};                         // of mid joints and toes: made from the angles below
+  std::array<double, kLimbCount> flexion{};  // radians
+  std::array<double, kLimbCount> axial{};    // radians
+  std::array<double, kToes.size()> toes{};   // radians, bent up
 };
 
-/// The posture nearest to a pose: a mid joint's rotation off the hinge is dropped, and the toes'.
+/// The posture nearest to a pose: a rotation off the hinge of a mid joint or of toes is dropped.
 Posture PostureFromPose(const Pose& pose);
 Pose PoseFromPosture(const Posture& posture);
 

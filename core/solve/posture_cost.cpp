@@ -47,6 +47,7 @@ constexpr double kNeutralKnee = Radians(5.0);
 constexpr double kFlexionSigma = Radians(120.0);
 constexpr double kPronationSigma = Radians(50.0);
 constexpr double kKneeAxialSigma = Radians(8.0);
+constexpr double kToesSigma = Radians(25.0);
 // Soft limits: people reach 167 degrees of flexion and stretch knees a little beyond straight.
 constexpr double kMinFlexion = 0.0;
 constexpr double kMaxFlexion = Radians(165.0);
@@ -81,6 +82,15 @@ ScalarTerm AxialTerm(Limb limb, double angle, const Priors& priors) {
   term.Add(angle, IsArm(limb) ? kPronationSigma : kKneeAxialSigma);
   if (priors.previous != nullptr) {
     term.Add(angle - priors.previous->axial[Index(limb)], priors.rotation_sigma);
+  }
+  return term;
+}
+
+ScalarTerm ToesTerm(std::size_t foot, double angle, const Priors& priors) {
+  ScalarTerm term;
+  term.Add(angle, kToesSigma);
+  if (priors.previous != nullptr) {
+    term.Add(angle - priors.previous->toes[foot], priors.rotation_sigma);
   }
   return term;
 }
@@ -137,6 +147,11 @@ double AllPriors(const Posture& posture, const Priors& priors, NormalEquations* 
     if (equations == nullptr) continue;
     AddScalar(range.first, flexion, *equations);
     AddScalar(range.first + 1, axial, *equations);
+  }
+  for (std::size_t i = 0; i < kToes.size(); ++i) {
+    const ScalarTerm toes = ToesTerm(i, posture.toes[i], priors);
+    cost += toes.cost;
+    if (equations != nullptr) AddScalar(DofsOf(kToes[i]).first, toes, *equations);
   }
   if (priors.previous != nullptr) {
     const Vec3 shift = posture.root_ws - priors.previous->root_ws;

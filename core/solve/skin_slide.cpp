@@ -14,7 +14,8 @@ namespace {
 constexpr double kSigma = 0.008;       // of a marker's error, one axis, metres
 constexpr double kOutlier = 0.05;      // errors beyond lose their say, metres
 constexpr double kSlideSigma = 0.010;  // scale of the slides' prior, metres per radian
-constexpr double kPlaceSigma = 0.003;  // how far a place may follow at once, metres
+constexpr double kPlaceSigma = 0.002;  // how far a place may follow at once, metres
+constexpr double kHeldSigma = 1e-5;    // as good as not at all
 // Neighbouring frames say the same: all together count for no more than this many.
 constexpr double kFrames = 40.0;
 constexpr int kReweightings = 5;  // of the prior
@@ -28,12 +29,34 @@ struct Seen {
 /// One axis of a marker's slides and the change of its place.
 using Column = std::array<double, kUnknowns>;
 
-bool Slides(const FittedMarker& marker) {
-  return std::any_of(marker.share_sigma.begin(), marker.share_sigma.end(),
-                     [](double sigma) { return sigma > 0.0; });
+/// On skin or shoe over a stiff part: it has no shares, and its place stays where the fit put it.
+bool IsOnFoot(const FittedMarker& marker) {
+  return marker.joint == HumanoidJoint::kLeftFoot || marker.joint == HumanoidJoint::kRightFoot;
 }
 
-void FitMarker(const std::vector<Seen>& seen, FittedMarker& marker) {
+bool Slides(const FittedMarker& marker) {
+  return IsOnFoot(marker) || std::any_of(marker.share_sigma.begin(), marker.share_sigma.end(),
+                                         [](double sigma) { return sigma > 0.0; });
+}
+
+/// The mean turns, by which all rows become deviations: a joint that is bent all the time shows no
+/// slide, and the place of the mean posture is known already.
+Column Centre(std::vector<Seen>& seen) {
+  Column mean{};
+  for (const Seen& s : seen) {
+    for (std::size_t i = 0; i < kSlideCount; ++i) {
+      mean[i] += s.row[i] / static_cast<double>(seen.size());
+    }
+  }
+  for (Seen& s : seen) {
+    for (std::size_t i = 0; i < kSlideCount; ++i) s.row[i] -= mean[i];
+  }
+  return mean;
+}
+
+void FitMarker(std::vector<Seen>& seen, FittedMarker& marker) {
+  const Column mean = Centre(seen);
+  const SkinSlides before = marker.slide;
   const double share = std::min(1.0, kFrames / static_cast<double>(seen.size()));
   std::array<double, kUnknowns * kUnknowns> gram{};
   std::array<Column, 3> right{};
@@ -51,7 +74,8 @@ void FitMarker(const std::vector<Seen>& seen, FittedMarker& marker) {
       }
     }
   }
-  gram[kUnknowns * kUnknowns - 1] += 1.0 / (kPlaceSigma * kPlaceSigma);
+  const double place_sigma = IsOnFoot(marker) ? kHeldSigma : kPlaceSigma;
+  gram[kUnknowns * kUnknowns - 1] += 1.0 / (place_sigma * place_sigma);
   Vec3 place{0.0};
   for (int iteration = 0; iteration < kReweightings; ++iteration) {
     std::array<double, kUnknowns* kUnknowns> factor = gram;
@@ -69,6 +93,9 @@ void FitMarker(const std::vector<Seen>& seen, FittedMarker& marker) {
     }
   }
   marker.shift_ls += place;
+  for (std::size_t i = 0; i < kSlideCount; ++i) {
+    marker.shift_ls += mean[i] * (before[i] - marker.slide[i]);
+  }
 }
 
 }  // namespace

@@ -73,12 +73,15 @@ void LevelSole(J foot, const std::vector<ModelPose>& placed, double rate_hz, Mar
   up = glm::normalize(up);
   if (up.y < std::cos(kMaxTilt)) return;
   const Quat level = ShortestTurn(up, kUp);
-  for (BoundMarker& marker : model.markers) {
-    if (marker.joint == foot) marker.offset_ls = level * marker.offset_ls;
-  }
+  const J toes = foot == J::kLeftFoot ? J::kLeftToes : J::kRightToes;
+  for (BoundMarker& marker : model.markers) TurnFootFrame(foot, level, marker);
+  Vec3& to_toes = model.skeleton.offset[Index(toes)];
+  to_toes = level * to_toes;
   for (Pose& pose : poses) {
     Quat& rotation = pose.rotation_ls[Index(foot)];
     rotation = glm::normalize(rotation * glm::conjugate(level));
+    Quat& bend = pose.rotation_ls[Index(toes)];
+    bend = glm::normalize(level * bend * glm::conjugate(level));
   }
 }
 

@@ -149,7 +149,9 @@ std::vector<BoundMarker> SlidingMarkers() {
       marker.slide[i] = {0.02 - d, 0.01, d - 0.03};
     }
     markers.push_back(marker);
-    marker.share = {};  // what slides needs no share to follow its child
+    marker.share = {};  // what slides needs no share to follow what hangs on its bone
+    markers.push_back(marker);
+    marker.child = J::kHips;
     markers.push_back(marker);
   }
   return markers;
@@ -197,6 +199,31 @@ TEST(BoundMarker, JacobiansAreTheFiniteDifferencesOfThePosition) {
             1e-6)
             << Name(marker.joint) << " share " << i;
       }
+    }
+  }
+}
+
+TEST(BoundMarker, StaysWhereItIsWhenTheFrameOfItsFootIsTurned) {
+  const Skeleton skeleton = TemplateSkeleton(1.7);
+  const Quat level = glm::angleAxis(Radians(12.0), glm::normalize(Vec3{1.0, 0.2, 0.5}));
+  Skeleton turned_skeleton = skeleton;
+  Vec3& to_toes = turned_skeleton.offset[Index(J::kLeftToes)];
+  to_toes = level * to_toes;
+  for (unsigned seed = 3; seed < 8; ++seed) {
+    const Posture posture = RandomPosture(seed, 0.5);
+    Posture turned = posture;
+    Quat& foot = turned.rotation_ls[Index(J::kLeftFoot)];
+    foot = foot * glm::conjugate(level);
+    Quat& toes = turned.rotation_ls[Index(J::kLeftToes)];
+    toes = level * toes * glm::conjugate(level);
+    for (const BoundMarker& marker : SlidingMarkers()) {
+      if (marker.child == J::kLeftFoot || marker.child == J::kLeftToes) continue;  // by shares
+      BoundMarker along = marker;
+      TurnFootFrame(J::kLeftFoot, level, along);
+      EXPECT_LT(glm::distance(MarkerPosition(marker, Placed(skeleton, posture)),
+                              MarkerPosition(along, Placed(turned_skeleton, turned))),
+                1e-12)
+          << Name(marker.joint);
     }
   }
 }
