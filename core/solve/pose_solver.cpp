@@ -160,7 +160,7 @@ class ToldFrame {
     bool any = false;
     for (std::size_t m = 0; m < model_.markers.size(); ++m) {
       const BoundMarker& marker = model_.markers[m];
-      if (!seen.visible[marker.label]) continue;
+      if (!IsSeen(seen, marker.label)) continue;
       const Vec3& at = seen.position_ws[marker.label];
       if (glm::distance(MarkerPosition(marker, pose), at) < kGhost) continue;
       const auto told = Tell(model_.predictors, m, seen);
