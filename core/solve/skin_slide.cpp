@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSigma = 0.008;       // of a marker's error, one axis, metres
 constexpr double kOutlier = 0.05;      // errors beyond lose their say, metres
-constexpr double kSlideSigma = 0.010;  // scale of the slides' prior, metres per radian
+constexpr double kSlideSigma = 0.006;  // scale of the slides' prior, metres per radian
 constexpr double kPlaceSigma = 0.002;  // how far a place may follow at once, metres
 constexpr double kHeldSigma = 1e-5;    // as good as not at all
 // Neighbouring frames say the same: all together count for no more than this many.
