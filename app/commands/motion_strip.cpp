@@ -25,7 +25,10 @@ namespace {
 
 constexpr double kPitch = 7.0;  // degrees
 constexpr double kFieldOfView = 0.35;
-constexpr double kView = 1.22;  // what a row shows, in body heights: feet come towards the camera
+// What a row shows at least, in body heights: feet come towards the camera, hands go up.
+constexpr double kBelow = 0.13;
+constexpr double kAbove = 1.09;
+constexpr double kHand = 0.12;  // room for what is above the wrist
 
 /// How far anyone comes from the hips to either side of the picture, in body heights.
 double HalfWidth(const std::vector<Pose>& poses, const Body& body, double yaw) {
@@ -38,6 +41,16 @@ double HalfWidth(const std::vector<Pose>& poses, const Body& body, double yaw) {
     }
   }
   return widest / body.height;
+}
+
+/// How high anyone's hands come, in body heights.
+double Top(const Body& body, const Pose& pose) {
+  const ModelPose model = ForwardKinematics(body.skeleton, pose);
+  double top = 0.0;
+  for (const Limb arm : {Limb::kLeftArm, Limb::kRightArm}) {
+    top = std::max(top, model.Position(JointsOf(arm).end).y / body.height + kHand);
+  }
+  return top;
 }
 
 /// Spread over the motion, or over its touches where there are far more of them than instants.
@@ -95,8 +108,20 @@ Result<Image> MotionStrips::Draw(const MotionScript& script, const Look& look) {
   for (const double time : InstantsOf(script, player, look.columns)) {
     poses.push_back(player.At(time));
   }
+  // Row by row, then instant by instant.
+  std::vector<std::vector<Pose>> rows(impl_->people.size(), poses);
+  double above = kAbove;
+  for (std::size_t c = 0; c < poses.size(); ++c) {
+    impl_->method->SetPerformerPose(performer.body, poses[c]);
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const Body& body = impl_->people[row]->body;
+      if (row > 0) impl_->method->Adapt(body, rows[row][c]);
+      above = std::max(above, Top(body, rows[row][c]));
+    }
+  }
+  const double shown = kBelow + above;
   const double half = std::max(0.22, HalfWidth(poses, performer.body, look.yaw) + 0.10);
-  const int width = 2 * static_cast<int>(std::ceil(half * look.cell_height / kView));
+  const int width = 2 * static_cast<int>(std::ceil(half * look.cell_height / shown));
 
   Image sheet;
   sheet.width = width * look.columns;
@@ -104,12 +129,9 @@ Result<Image> MotionStrips::Draw(const MotionScript& script, const Look& look) {
   sheet.rgba.resize(std::size_t{4} * static_cast<std::size_t>(sheet.width) *
                     static_cast<std::size_t>(sheet.height));
   for (int c = 0; c < look.columns; ++c) {
-    const Pose& source = poses[static_cast<std::size_t>(c)];
-    impl_->method->SetPerformerPose(performer.body, source);
     for (std::size_t row = 0; row < impl_->people.size(); ++row) {
       const Person& person = *impl_->people[row];
-      Pose pose = source;
-      if (row > 0) impl_->method->Adapt(person.body, pose);
+      const Pose& pose = rows[row][static_cast<std::size_t>(c)];
       std::vector<Mat4> nodes(person.character.nodes.joints.size());
       PoseNodes(person.character.rig, pose, nodes);
       Figure drawn;
@@ -118,11 +140,12 @@ Result<Image> MotionStrips::Draw(const MotionScript& script, const Look& look) {
       view.figures = {&drawn, 1};
       view.name_plates = false;
       view.grid = false;
-      view.camera.target_ws = {pose.root_ws.x, 0.48 * person.body.height, pose.root_ws.z};
+      view.camera.target_ws = {pose.root_ws.x, (0.5 * shown - kBelow) * person.body.height,
+                               pose.root_ws.z};
       view.camera.yaw = Radians(look.yaw);
       view.camera.pitch = Radians(kPitch);
       view.camera.fov_y = kFieldOfView;
-      view.camera.distance = 0.5 * kView * person.body.height / std::tan(0.5 * view.camera.fov_y);
+      view.camera.distance = 0.5 * shown * person.body.height / std::tan(0.5 * view.camera.fov_y);
       const Image cell = impl_->renderer.DrawImage(view, width, look.cell_height);
       if (cell.rgba.empty()) return Error{"a picture of this size cannot be drawn here"};
       Paste(cell, c * width, static_cast<int>(row) * look.cell_height, sheet);
