@@ -2,6 +2,7 @@
 // The method on takes of real people that may lie beside the project. The bars are those that a
 // measurement met with room to spare; plain copying fails them by far.
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@
 
 namespace ego::test {
 namespace {
+
+Result<CapturedMotion> Captured(const std::filesystem::path& path) {
+  const auto motion = ReadBvh(path);
+  if (!motion) return Error{motion.error()};
+  return CaptureFromJointMotion(*motion);
+}
 
 struct Outcome {
   RetargetScore method;
@@ -55,9 +62,7 @@ double Mean(const RetargetScore& score) {
 /// Somebody washes: hands along the arms, the other shoulder, the head.
 TEST(RetargetRealTake, HandsStayOnTheBodyWithoutJumps) {
   EGO_SHARED_DATA_OR_SKIP(path, "bvh/cmu_02_10.bvh");
-  const auto motion = ReadBvh(path);
-  ASSERT_TRUE(motion) << motion.error();
-  const auto take = CaptureFromJointMotion(*motion);
+  const auto take = Captured(path);
   ASSERT_TRUE(take) << take.error();
   for (const Body& avatar : {StudioBody("Child"), StudioBody("Woman"), StudioBody("Big belly")}) {
     const Outcome outcome = Retarget(*take, 2050, 2400, avatar);
@@ -86,9 +91,7 @@ TEST(RetargetRealTake, HandsStayOnTheBodyWithoutJumps) {
 /// places that they can reach with it outstretched.
 TEST(RetargetRealTake, ShortArmsTouchWhatTheyCanReach) {
   EGO_SHARED_DATA_OR_SKIP(path, "bvh/cmu_02_10.bvh");
-  const auto motion = ReadBvh(path);
-  ASSERT_TRUE(motion) << motion.error();
-  const auto take = CaptureFromJointMotion(*motion);
+  const auto take = Captured(path);
   ASSERT_TRUE(take) << take.error();
   const auto method = MakeRetargetMethod("mdb");
   for (const auto& file :
@@ -119,9 +122,7 @@ TEST(RetargetRealTake, ShortArmsTouchWhatTheyCanReach) {
 
 TEST(RetargetRealTake, TheirOwnBodyTakesThePostureUnchanged) {
   EGO_SHARED_DATA_OR_SKIP(path, "bvh/cmu_02_10.bvh");
-  const auto motion = ReadBvh(path);
-  ASSERT_TRUE(motion) << motion.error();
-  const auto take = CaptureFromJointMotion(*motion);
+  const auto take = Captured(path);
   ASSERT_TRUE(take) << take.error();
   const auto method = MakeRetargetMethod("mdb");
   double worst = 0.0;
@@ -140,9 +141,7 @@ TEST(RetargetRealTake, TheirOwnBodyTakesThePostureUnchanged) {
 
 TEST(RetargetRealTake, AWalkGetsNoJumps) {
   EGO_SHARED_DATA_OR_SKIP(path, "bvh/cmu_12_03.bvh");
-  const auto motion = ReadBvh(path);
-  ASSERT_TRUE(motion) << motion.error();
-  const auto take = CaptureFromJointMotion(*motion);
+  const auto take = Captured(path);
   ASSERT_TRUE(take) << take.error();
   for (const Body& avatar : {StudioBody("Child"), StudioBody("Big belly"), Stubby()}) {
     // The first frames of the file are a posture of rest and the ringing of a filter.
